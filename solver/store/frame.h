@@ -1,0 +1,23 @@
+#pragma once
+#include "grid/grid.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace lamella {
+
+/// The state at one time: nodal values of the level set phi, negative inside.
+struct Frame {
+  Grid grid;
+  double time = 0;
+  std::vector<double> phi; ///< grid.size() values, x fastest
+};
+
+/// Write a frame as VTKHDF ImageData (opens in ParaView >= 5.11). The file appears whole or not at all.
+/// Throws StoreError.
+void write_frame(const std::filesystem::path& file, const Frame& frame);
+
+/// Read what write_frame wrote. Throws StoreError for anything else, a damaged file included.
+Frame read_frame(const std::filesystem::path& file);
+
+} // namespace lamella
