@@ -1,0 +1,76 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+/// The inner loops, compiled once for each instruction set and chosen when the program starts.
+/// They know arrays and numbers only; what the numbers mean is said in levelset/ and geometry/.
+namespace lamella {
+
+/// Periodic tensor-product B-spline of degree 7, f(x) = sum c_ijk B(x - x_i) B(y - y_j) B(z - z_k), with
+/// coefficients at the nodes of a grid (x fastest).
+struct SplineView {
+  const double* coefficients;
+  int nodes[3];
+  double origin[3];  ///< position of node 0
+  double inv_spacing;
+};
+
+/// Points as separate coordinate arrays.
+struct Points {
+  double *x, *y, *z;
+};
+struct ConstPoints {
+  const double *x, *y, *z;
+};
+
+/// Derivatives up to order 2 give all but lap_KM; arrays of one value a point.
+struct SurfaceArrays {
+  double* phi;                 ///< value of the spline
+  double *nx, *ny, *nz, *grad; ///< unit normal and |grad phi|
+  double *KM, *K;              ///< sum and product of the principal curvatures of the level surface
+  double* lap_KM;              ///< surface Laplacian of KM
+};
+
+/// One step of the blended SBDF2/Euler scheme in Fourier space, for a row of modes along x.
+struct SpectralRow {
+  int modes;                ///< complex numbers in the row
+  const double* kx2;        ///< squared wave numbers along x, each twice (real, imaginary part)
+  const double* inv_symbol; ///< 1 / symbol of the spline along x, each twice
+  double k2;                ///< squared wave number across the row
+  double scale;             ///< 1 / (symbol across the row * number of nodes)
+  double dt, ratio;         ///< step, step / previous step (0: no history, Euler)
+  double stiffness;         ///< implicit symbol: dt (stiffness k^4 + tension k^2)
+  double tension;
+  double blend;             ///< z0: modes with implicit symbol far above it take Euler
+};
+
+struct Kernels {
+  const char* name;
+
+  /// Nodal values of one z-plane of a spline: f = FIR c.
+  void (*nodal_plane)(const SplineView& spline, int k, double* scratch, double* out);
+
+  /// Newton steps for the constrained nearest point: moves p towards the point of {f = 0} nearest to x.
+  /// `step` receives the length of the last Newton step; with `verify` a last gradient step is taken and
+  /// points that end further than half a spacing from the surface return to where they began with step < 0.
+  void (*closest_points)(const SplineView& spline, std::size_t n, ConstPoints x, Points p, int iterations,
+                         bool verify, double* step);
+
+  /// Order-2 surface quantities (all of SurfaceArrays but lap_KM) at points.
+  void (*curvatures)(const SplineView& spline, std::size_t n, ConstPoints p, const SurfaceArrays& out);
+
+  /// All of SurfaceArrays, from derivatives up to order 4.
+  void (*jets)(const SplineView& spline, std::size_t n, ConstPoints p, const SurfaceArrays& out);
+
+  /// Quasi-interpolant of nodal data: cubic B-spline with the data as coefficients, at points.
+  void (*cubic)(const SplineView& data, std::size_t n, ConstPoints p, double* out);
+
+  /// rate (in: transform of nodal rates; out: transform of the coefficient increment), with the history
+  /// rows rate_old and increment_old brought up to date.
+  void (*spectral_row)(const SpectralRow& row, double* rate, double* rate_old, double* increment_old);
+};
+
+/// The best kernels for this CPU; LAMELLA_KERNELS=baseline|avx2|avx512 in the environment overrides.
+const Kernels& kernels();
+
+} // namespace lamella
