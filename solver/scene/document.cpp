@@ -1,0 +1,187 @@
+#include "scene/document.h"
+
+#include "error.h"
+#include "scene/nearest.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+namespace lamella {
+namespace {
+
+constexpr std::size_t largest_text = 1 << 20; // bytes
+constexpr int most_dots_in_a_line = 24;
+
+std::string at_line(const std::string& source, std::size_t line) {
+  return fmt::format("{}:{}: ", source, line);
+}
+
+/// Refuse what the parser is not to see: it recurses once for every level of nesting.
+void refuse_rubbish(std::string_view text, const std::string& source) {
+  if (text.size() > largest_text)
+    refuse_scene(source + ": larger than 1 MiB; allowed: a scene, which is a short text");
+  std::size_t line = 1;
+  bool is_blank = true, is_comment = false;
+  int dots = 0;
+  for (const char c : text) {
+    if (c == '\0') refuse_scene(at_line(source, line) + "not a text; allowed: a scene in TOML");
+    if (c == '\n') {
+      ++line;
+      is_blank = true, is_comment = false, dots = 0;
+      continue;
+    }
+    if (is_blank && c == '#') is_comment = true;
+    is_blank = is_blank && (c == ' ' || c == '\t');
+    if (c == '.' && !is_comment && ++dots > most_dots_in_a_line)
+      refuse_scene(at_line(source, line) +
+                   "nested too deeply; allowed: sections that hold plain keys");
+  }
+}
+
+toml::table parse_toml(std::string_view text, const std::string& source) {
+  try {
+    return toml::parse(text, std::string_view(source));
+  } catch (const toml::parse_error& error) {
+    refuse_scene(fmt::format("{}this is not TOML: {}", at_line(source, error.source().begin.line),
+                             error.description()));
+  }
+}
+
+bool is_section(std::string_view name) { return !name.empty() && !keys_of_section(name).empty(); }
+
+/// The known section that has a key of this name, or nothing.
+std::string_view home_of(std::string_view name) {
+  for (const Key& key : scene_keys())
+    if (key.name == name) return key.section;
+  return {};
+}
+
+[[noreturn]] void refuse_section(const std::string& place, std::string_view name) {
+  std::vector<std::string_view> sections = scene_sections();
+  std::erase(sections, "");
+  refuse_scene(fmt::format("{}[{}]: unknown section; allowed: [{}]{}", place, shortened(name),
+                           fmt::join(sections, "], ["), suggestion(name, sections)));
+}
+
+[[noreturn]] void refuse_key(const std::string& place, std::string_view section,
+                             std::string_view name) {
+  const auto siblings = keys_of_section(section);
+  const std::string_view home = home_of(name);
+  const std::string hint = home.empty() ? suggestion(name, siblings)
+                                        : fmt::format("; did you mean {} in [{}]?", name, home);
+  const std::string label = section.empty() ? "" : fmt::format("[{}] ", section);
+  refuse_scene(fmt::format("{}{}{}: unknown key; allowed: {}{}", place, label, shortened(name),
+                           fmt::join(siblings, ", "), hint));
+}
+
+const Key& known_key(const std::string& place, std::string_view section, std::string_view name) {
+  if (!section.empty() && !is_section(section)) refuse_section(place, section);
+  const Key* key = find_key(section, name);
+  if (!key) refuse_key(place, section, name);
+  return *key;
+}
+
+/// A key or a whole section before it is looked up.
+struct Entry {
+  std::string_view section; ///< "" for what stands at the top
+  std::string_view name;
+  std::size_t line;
+  const toml::node* value;
+};
+
+std::vector<Entry> entries_by_line(const toml::table& table) {
+  std::vector<Entry> entries;
+  for (const auto& [key, value] : table) {
+    const toml::table* section = is_section(key.str()) ? value.as_table() : nullptr;
+    if (section)
+      for (const auto& [inner, inner_value] : *section)
+        entries.push_back({key.str(), inner.str(), inner.source().begin.line, &inner_value});
+    else
+      entries.push_back({"", key.str(), key.source().begin.line, &value});
+  }
+  std::ranges::stable_sort(entries, {}, &Entry::line);
+  return entries;
+}
+
+} // namespace
+
+void refuse_scene(std::string message) {
+  constexpr std::size_t longest = 1000;
+  if (message.size() > longest) message = message.substr(0, longest) + " ...";
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  throw SceneError(message);
+}
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  return text.size() <= longest ? std::string(text) : fmt::format("{}...", text.substr(0, longest));
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    refuse_scene(file.string() + ": this is a folder; allowed: a scene file (.toml)");
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(largest_text + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream && !stream.eof())
+    refuse_scene(fmt::format("{}: cannot be read: {}", file.string(),
+                             std::generic_category().message(errno)));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+std::vector<Given> parse_document(std::string_view text, const std::string& source) {
+  refuse_rubbish(text, source);
+  const auto table = std::make_shared<const toml::table>(parse_toml(text, source));
+  std::vector<Given> given;
+  for (const Entry& e : entries_by_line(*table)) {
+    const std::string place = at_line(source, e.line);
+    if (e.section.empty() && is_section(e.name))
+      refuse_scene(fmt::format("{}{}: this is a section; allowed: [{}], then its keys", place,
+                               e.name, e.name));
+    if (e.section.empty() && e.value->is_table()) refuse_section(place, e.name);
+    given.push_back({&known_key(place, e.section, e.name), {table, e.value}, place, false});
+  }
+  if (given.empty())
+    refuse_scene(source +
+                 ":1: the scene is empty; allowed: at least one key, such as kind in [shape]");
+  return given;
+}
+
+Given parse_override(const std::string& argument) {
+  const std::string place = fmt::format("--set {}: ", shortened(argument));
+  const auto trimmed = [](std::string_view text) {
+    const auto first = text.find_first_not_of(" \t");
+    return first == text.npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  };
+  const std::size_t equals = argument.find('=');
+  const std::string_view path = trimmed(std::string_view(argument).substr(0, equals));
+  const std::string_view text =
+      equals == argument.npos ? "" : trimmed(std::string_view(argument).substr(equals + 1));
+  if (path.empty() || text.empty())
+    refuse_scene(place + "no key and value; allowed: section.key=value, such as grid.nodes=96");
+
+  const std::size_t dot = path.find('.');
+  const auto section = dot == path.npos ? std::string_view() : path.substr(0, dot);
+  const Key& key = known_key(place, section, dot == path.npos ? path : path.substr(dot + 1));
+
+  refuse_rubbish(text, "--set " + shortened(argument));
+  toml::table table;
+  try {
+    table = toml::parse(fmt::format("value = {}", text), std::string_view("--set"));
+  } catch (const toml::parse_error&) {
+  }
+  if (table.size() != 1) table = toml::table{{"value", text}};
+  const auto shared = std::make_shared<const toml::table>(std::move(table));
+  return {&key, {shared, shared->get("value")}, place, true};
+}
+
+} // namespace lamella

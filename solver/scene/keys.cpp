@@ -1,0 +1,209 @@
+#include "scene/keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace lamella {
+namespace {
+
+using enum ShapeKind;
+
+/// The member that a path of pointers to members leads to.
+template <auto... path>
+auto& at(Scene& scene) {
+  return (scene.*....*path);
+}
+
+template <auto... path>
+Access member() {
+  return &at<path...>;
+}
+
+template <auto... path>
+Choice choice(std::vector<std::string_view> names) {
+  using Enum = std::remove_reference_t<decltype(at<path...>(std::declval<Scene&>()))>;
+  return {std::move(names), [](Scene& scene) { return static_cast<int>(at<path...>(scene)); },
+          [](Scene& scene, int value) { at<path...>(scene) = static_cast<Enum>(value); }};
+}
+
+const Range any{};
+const Range length{.low = 0, .above_low = true};
+
+// The one description of the scene format. A new parameter is a member of Scene and an entry here:
+// section, name, access, unit, range, shape kinds, help, default in words.
+// clang-format off
+std::vector<Key> make_keys() {
+  return {
+      {"", "name", member<&Scene::name>(), "", any, {},
+       "what the run is called", "the file's name without `.toml`"},
+      {"", "title", member<&Scene::title>(), "", any, {},
+       "one line about the run, for people", "none"},
+
+      {"grid", "nodes", member<&Scene::nodes>(), "", {.low = 16, .high = 512, .multiple_of = 8}, {},
+       "nodes along x, y, z, equally spaced; one number for a cube"},
+      {"grid", "half_width", member<&Scene::half_width>(), "length", {.low = 1e-6}, {},
+       "half the width, along its shortest axis, of the periodic box around the origin"},
+
+      {"shape", "kind", choice<&Scene::shape, &Shape::kind>(
+           {"sphere", "oblate", "prolate", "ellipsoid", "torus"}), "", any, {},
+       "start shape; its axis of symmetry is z before rotation"},
+      {"shape", "radius", member<&Scene::shape, &Shape::radius>(), "length", length, {sphere},
+       "radius"},
+      {"shape", "semi_axis", member<&Scene::shape, &Shape::semi_axis>(), "length", length,
+       {oblate, prolate}, "largest semi-axis"},
+      {"shape", "reduced_volume", member<&Scene::shape, &Shape::reduced_volume>(), "",
+       {.low = 0.01, .high = 1, .below_high = true}, {oblate, prolate},
+       "volume over that of the sphere with the same area; sets the other semi-axis"},
+      {"shape", "semi_axes", member<&Scene::shape, &Shape::semi_axes>(), "length", length,
+       {ellipsoid}, "semi-axes along x, y, z"},
+      {"shape", "ring_radius", member<&Scene::shape, &Shape::ring_radius>(), "length", length,
+       {torus}, "from the centre of the torus to the centre of its tube"},
+      {"shape", "tube_radius", member<&Scene::shape, &Shape::tube_radius>(), "length", length,
+       {torus}, "radius of the tube"},
+      {"shape", "center", member<&Scene::shape, &Shape::center>(), "length", any, {},
+       "centre of the shape"},
+      {"shape", "rotation_axis", member<&Scene::shape, &Shape::rotation_axis>(), "", any, {},
+       "axis through the centre about which the shape is turned; any length but zero"},
+      {"shape", "rotation_angle", member<&Scene::shape, &Shape::rotation_angle>(), "degrees",
+       {.low = -360, .high = 360}, {}, "right-handed about rotation_axis"},
+
+      {"membrane", "bending_modulus", member<&Scene::membrane, &Membrane::bending_modulus>(),
+       "energy", {.low = 1e-6}, {}, "bending modulus of the Helfrich energy"},
+      {"membrane", "spontaneous_curvature",
+       member<&Scene::membrane, &Membrane::spontaneous_curvature>(), "1/length", any, {},
+       "preferred sum of the principal curvatures, which is -2 on the unit sphere"},
+
+      {"constraints", "volume", choice<&Scene::constraints, &Constraints::volume>({"fixed"}), "",
+       any, {}, "enclosed volume"},
+      {"constraints", "area", choice<&Scene::constraints, &Constraints::area>({"fixed"}), "",
+       any, {}, "membrane area"},
+
+      {"run", "end_time", member<&Scene::end_time>(), "time",
+       {.low = 0, .high = 1e30, .above_low = true}, {}, "when the run ends; it starts at 0"},
+
+      {"numerics", "tolerance", member<&Scene::numerics, &Numerics::tolerance>(), "grid spacings",
+       {.low = 0, .high = 0.1, .above_low = true}, {},
+       "time error allowed per step, rms over the membrane"},
+      {"numerics", "max_time_step", member<&Scene::numerics, &Numerics::max_time_step>(), "time",
+       {.low = 0, .high = 1e30}, {}, "longest step; 0 stands for end_time / 16"},
+
+      {"output", "frames", member<&Scene::output, &Output::frames>(), "",
+       {.low = 2, .high = 100000}, {},
+       "stored states, equally spaced in time, start and end included"},
+  };
+}
+// clang-format on
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+std::string range_text(const Range& range) {
+  if (!range.above_low && !range.below_high)
+    return fmt::format("from {:g} to {:g}", range.low, range.high);
+  return fmt::format("{} {:g} and {} {:g}", range.above_low ? "above" : "from", range.low,
+                     range.below_high ? "below" : "up to", range.high);
+}
+
+std::string integer_text(const Range& range) {
+  const std::string multiple =
+      range.multiple_of == 0 ? "" : fmt::format("multiple of {} ", range.multiple_of);
+  return fmt::format("an integer {}from {} to {}", multiple, range.low, range.high);
+}
+
+} // namespace
+
+bool Range::contains(double x) const {
+  return (above_low ? x > low : x >= low) && (below_high ? x < high : x <= high) && divides(x);
+}
+
+std::string Key::path() const {
+  return fmt::format("{}{}{}", section, section.empty() ? "" : ".", name);
+}
+
+std::string Key::label() const {
+  return section.empty() ? std::string(name) : fmt::format("[{}] {}", section, name);
+}
+
+bool Key::belongs_to(ShapeKind kind) const {
+  return kinds.empty() || std::ranges::find(kinds, kind) != kinds.end();
+}
+
+std::span<const Key> scene_keys() {
+  static const std::vector<Key> keys = make_keys();
+  return keys;
+}
+
+std::vector<std::string_view> scene_sections() {
+  std::vector<std::string_view> sections;
+  for (const Key& key : scene_keys())
+    if (sections.empty() || sections.back() != key.section) sections.push_back(key.section);
+  return sections;
+}
+
+std::vector<std::string_view> keys_of_section(std::string_view section) {
+  std::vector<std::string_view> names;
+  for (const Key& key : scene_keys())
+    if (key.section == section) names.push_back(key.name);
+  return names;
+}
+
+const Key* find_key(std::string_view section, std::string_view name) {
+  const auto key = std::ranges::find_if(
+      scene_keys(), [&](const Key& k) { return k.section == section && k.name == name; });
+  return key == scene_keys().end() ? nullptr : &*key;
+}
+
+std::string_view to_string(ShapeKind kind) {
+  return std::get<Choice>(find_key("shape", "kind")->access).names.at(static_cast<int>(kind));
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += {'\\', c};
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04x}", c);
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
+std::string value_text(const Key& key, Scene scene) {
+  return std::visit(
+      Overloaded{
+          [&](Member<std::string> text) { return quoted(text(scene)); },
+          [&](Member<std::array<int, 3>> member) {
+            const auto& [x, y, z] = member(scene);
+            return x == y && y == z ? fmt::to_string(x) : fmt::format("[{}, {}, {}]", x, y, z);
+          },
+          [&](Member<Vec3> vector) { return fmt::format("[{}]", fmt::join(vector(scene), ", ")); },
+          [&](const Choice& choice) { return quoted(choice.names.at(choice.get(scene))); },
+          [&](auto number) { return fmt::to_string(number(scene)); },
+      },
+      key.access);
+}
+
+std::string allowed_text(const Key& key) {
+  return std::visit(
+      Overloaded{
+          [&](Member<double>) { return "a number " + range_text(key.range); },
+          [&](Member<int>) { return integer_text(key.range); },
+          [&](Member<std::string>) { return std::string("a text in quotes"); },
+          [&](Member<Vec3>) { return "three numbers [x, y, z] " + range_text(key.range); },
+          [&](Member<std::array<int, 3>>) {
+            return integer_text(key.range) + ", or three of them [nx, ny, nz]";
+          },
+          [&](const Choice& choice) {
+            return fmt::format("\"{}\"", fmt::join(choice.names, "\", \""));
+          },
+      },
+      key.access);
+}
+
+} // namespace lamella

@@ -1,0 +1,193 @@
+#include "scene/scene_toml.h"
+
+#include "scene/document.h"
+#include "scene/nearest.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace lamella {
+namespace {
+
+std::string described(const toml::node& value) {
+  if (const auto* text = value.as_string())
+    return fmt::format("the text \"{}\"", shortened(text->get()));
+  if (const auto* integer = value.as_integer())
+    return fmt::format("the integer {}", integer->get());
+  if (const auto* number = value.as_floating_point())
+    return fmt::format("the number {}", number->get());
+  if (const auto* boolean = value.as_boolean()) return boolean->get() ? "true" : "false";
+  if (const auto* list = value.as_array()) return fmt::format("a list of {}", list->size());
+  return value.is_table() ? "a section" : "a date or time";
+}
+
+// assign: give a member its value, or return false because the value's type does not fit.
+
+bool assign(double& member, const toml::node& value) {
+  if (!value.is_number()) return false;
+  member = *value.value<double>();
+  return true;
+}
+
+bool assign(int& member, const toml::node& value) {
+  if (!value.is_integer()) return false;
+  constexpr std::int64_t limit = std::numeric_limits<int>::max();
+  member = static_cast<int>(std::clamp(value.as_integer()->get(), -limit, limit));
+  return true;
+}
+
+bool assign(std::string& member, const toml::node& value) {
+  if (!value.is_string()) return false;
+  member = value.as_string()->get();
+  return true;
+}
+
+template <class T>
+bool assign(std::array<T, 3>& member, const toml::node& value) {
+  const toml::array* list = value.as_array();
+  if (!list || list->size() != 3) return false;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!assign(member[i], *list->get(i))) return false;
+  return true;
+}
+
+bool assign_nodes(std::array<int, 3>& nodes, const toml::node& value) {
+  int all = 0;
+  if (!assign(all, value)) return assign(nodes, value);
+  nodes.fill(all);
+  return true;
+}
+
+/// One value taken from its TOML node into the scene, or refused.
+class Assignment {
+public:
+  Assignment(Scene& scene, const Given& given) : scene_(scene), given_(given) {
+    std::visit(*this, given.key->access);
+  }
+
+  template <class T>
+  void operator()(Member<T> member) const {
+    if (!assign(member(scene_), *given_.value)) refuse("does not fit");
+  }
+
+  void operator()(Member<std::array<int, 3>> member) const {
+    if (!assign_nodes(member(scene_), *given_.value)) refuse("does not fit");
+  }
+
+  void operator()(const Choice& choice) const {
+    const auto* text = given_.value->as_string();
+    if (!text) refuse("does not fit");
+    const auto name = std::ranges::find(choice.names, text->get());
+    if (name == choice.names.end())
+      refuse("is not available in this release", suggestion(text->get(), choice.names));
+    choice.set(scene_, static_cast<int>(name - choice.names.begin()));
+  }
+
+private:
+  [[noreturn]] void refuse(std::string_view what, const std::string& hint = {}) const {
+    refuse_scene(fmt::format("{}{}: {} {}; allowed: {}{}", given_.place, given_.key->label(),
+                             described(*given_.value), what, allowed_text(*given_.key), hint));
+  }
+
+  Scene& scene_;
+  const Given& given_;
+};
+
+void refuse_keys_of_other_kinds(const std::vector<Given>& given, ShapeKind kind) {
+  for (const Given& g : given) {
+    if (g.key->belongs_to(kind)) continue;
+    std::vector<std::string_view> own;
+    for (const Key& key : scene_keys())
+      if (!key.kinds.empty() && key.belongs_to(kind)) own.push_back(key.name);
+    std::vector<std::string_view> homes;
+    for (const ShapeKind k : g.key->kinds) homes.push_back(to_string(k));
+    refuse_scene(fmt::format("{}{}: belongs to kind = \"{}\", not \"{}\"; allowed: {}", g.place,
+                             g.key->label(), fmt::join(homes, "\" or \""), to_string(kind),
+                             fmt::join(own, ", ")));
+  }
+}
+
+/// The file's keys followed by the overrides; where these change the kind of shape, without the
+/// keys that only the file's kind has.
+std::vector<Given> merged(std::vector<Given> given, std::span<const std::string> overrides) {
+  const auto kind_of = [](const std::vector<Given>& all) {
+    Scene scene;
+    for (const Given& g : all)
+      if (g.key->path() == "shape.kind") Assignment(scene, g);
+    return scene.shape.kind;
+  };
+  refuse_keys_of_other_kinds(given, kind_of(given));
+  for (const std::string& argument : overrides) given.push_back(parse_override(argument));
+  const ShapeKind kind = kind_of(given);
+  std::erase_if(given, [&](const Given& g) { return !g.is_override && !g.key->belongs_to(kind); });
+  refuse_keys_of_other_kinds(given, kind);
+  return given;
+}
+
+/// Names an override before a line of the file, and a line before what was left at its default.
+KeyLocator locator(const std::vector<Given>& given, const std::string& source) {
+  return [&given, source](std::span<const std::string_view> keys) -> KeyPlace {
+    for (const bool want_override : {true, false})
+      for (const auto key : keys)
+        for (auto g = given.rbegin(); g != given.rend(); ++g)
+          if (g->is_override == want_override && g->key->path() == key) return {key, g->place};
+    return {keys.front(), source + ": "};
+  };
+}
+
+std::string length_unit_note(const Key& key) {
+  return key.unit.empty() ? std::string() : fmt::format(" ({})", key.unit);
+}
+
+} // namespace
+
+Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_scene(read_text(file), file.string(), overrides);
+}
+
+Scene parse_scene(std::string_view text, const std::string& source_name,
+                  std::span<const std::string> overrides) {
+  const std::vector<Given> given = merged(parse_document(text, source_name), overrides);
+  Scene scene;
+  scene.name = std::filesystem::path(source_name).stem().string();
+  for (const Given& g : given) Assignment(scene, g);
+  validate(scene, locator(given, source_name));
+  return scene;
+}
+
+std::string to_toml(const Scene& scene) {
+  std::string text;
+  std::string_view section;
+  for (const Key& key : scene_keys()) {
+    if (!key.belongs_to(scene.shape.kind)) continue;
+    if (key.section != section) text += fmt::format("\n[{}]\n", section = key.section);
+    const std::string setting = fmt::format("{} = {}", key.name, value_text(key, scene));
+    text += fmt::format("{:<36} # {}{}\n", setting, key.help, length_unit_note(key));
+  }
+  return text;
+}
+
+std::string describe_keys() {
+  std::string text;
+  for (const std::string_view section : scene_sections()) {
+    text += section.empty() ? "### Before the first section\n\n"
+                            : fmt::format("\n### [{}]\n\n", section);
+    text += "| key | allowed | unit | default | meaning |\n|---|---|---|---|---|\n";
+    for (const Key& key : scene_keys()) {
+      if (key.section != section) continue;
+      std::vector<std::string_view> kinds;
+      for (const ShapeKind kind : key.kinds) kinds.push_back(to_string(kind));
+      const std::string of_kind = kinds.empty() ? "" : fmt::format("{}: ", fmt::join(kinds, ", "));
+      const std::string fallback = key.fallback.empty()
+                                       ? fmt::format("`{}`", value_text(key, Scene{}))
+                                       : std::string(key.fallback);
+      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, allowed_text(key), key.unit,
+                          fallback, of_kind, key.help);
+    }
+  }
+  return text;
+}
+
+} // namespace lamella

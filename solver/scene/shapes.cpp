@@ -1,0 +1,247 @@
+#include "scene/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lamella {
+namespace {
+
+using std::numbers::pi;
+
+/// Carlson's symmetric elliptic integral R_F by duplication (DLMF 19.36.1). The test is written so
+/// that a NaN ends the loop.
+double carlson_rf(double x, double y, double z) {
+  for (;;) {
+    const double mean = (x + y + z) / 3;
+    const double dx = 1 - x / mean, dy = 1 - y / mean, dz = 1 - z / mean;
+    if (!(std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) >= 1e-3)) {
+      const double e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
+      return (1 - e2 / 10 + e3 / 14 + e2 * e2 / 24 - 3 * e2 * e3 / 44) / std::sqrt(mean);
+    }
+    const double shift = std::sqrt(x * y) + std::sqrt(x * z) + std::sqrt(y * z);
+    x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
+  }
+}
+
+/// Carlson's R_D, symmetric in x and y, by duplication (DLMF 19.36.2).
+double carlson_rd(double x, double y, double z) {
+  double sum = 0, scale = 1;
+  for (;;) {
+    const double mean = (x + y + 3 * z) / 5;
+    const double dx = 1 - x / mean, dy = 1 - y / mean, dz = 1 - z / mean;
+    if (!(std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) >= 1e-3)) {
+      const double xy = dx * dy, zz = dz * dz;
+      const double e2 = xy - 6 * zz, e3 = (3 * xy - 8 * zz) * dz, e4 = 3 * (xy - zz) * zz;
+      const double e5 = xy * zz * dz;
+      const double series = 1 - 3 * e2 / 14 + e3 / 6 + 9 * e2 * e2 / 88 - 3 * e4 / 22 -
+                            9 * e2 * e3 / 52 + 3 * e5 / 26;
+      return 3 * sum + scale * series / (mean * std::sqrt(mean));
+    }
+    const double shift = std::sqrt(x * y) + std::sqrt(x * z) + std::sqrt(y * z);
+    sum += scale / (std::sqrt(z) * (z + shift));
+    scale /= 4;
+    x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
+  }
+}
+
+/// Area of an ellipsoid, 4 pi R_G(b^2 c^2, a^2 c^2, a^2 b^2) (DLMF 19.33.1), with R_G from R_F and
+/// R_D by 19.21.10. The middle argument stands apart there, so that no two terms cancel.
+double ellipsoid_area(const Vec3& axes) {
+  const auto [a, b, c] = axes;
+  std::array<double, 3> q{b * b * c * c, a * a * c * c, a * a * b * b};
+  std::ranges::sort(q);
+  const auto [low, middle, high] = q;
+  return 2 * pi *
+         (middle * carlson_rf(low, high, middle) +
+          (middle - low) * (high - middle) / 3 * carlson_rd(low, high, middle) +
+          std::sqrt(low * high / middle));
+}
+
+double ellipsoid_volume(const Vec3& axes) { return 4 * pi / 3 * axes[0] * axes[1] * axes[2]; }
+
+double reduced_volume(const Vec3& axes) {
+  return ellipsoid_volume(axes) / (4 * pi / 3 * std::pow(ellipsoid_area(axes) / (4 * pi), 1.5));
+}
+
+/// Bisect for the ratio in (0, 1) at which a reduced volume that grows with the ratio is reached.
+template <class AxesOfRatio>
+double axis_ratio(double target, AxesOfRatio axes) {
+  double low = 0, high = 1;
+  for (;;) {
+    const double ratio = low + (high - low) / 2;
+    if (ratio <= low || ratio >= high) return high;
+    (reduced_volume(axes(ratio)) < target ? low : high) = ratio;
+  }
+}
+
+using Rotation = std::array<Vec3, 3>; ///< rows; body to box coordinates
+
+/// Cosine and sine of an angle in degrees, exact at multiples of 90.
+std::pair<double, double> cosine_and_sine(double degrees) {
+  int quarter_turns = 0;
+  const double rest = std::remquo(degrees, 90.0, &quarter_turns) * pi / 180;
+  const double c = std::cos(rest), s = std::sin(rest);
+  switch (quarter_turns & 3) {
+  case 0:
+    return {c, s};
+  case 1:
+    return {-s, c};
+  case 2:
+    return {-c, -s};
+  default:
+    return {s, -c};
+  }
+}
+
+Rotation rotation(const Shape& shape) {
+  const auto& axis = shape.rotation_axis;
+  const double largest = std::max({std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2])});
+  const double length = std::hypot(axis[0] / largest, axis[1] / largest, axis[2] / largest);
+  const Vec3 u{axis[0] / largest / length, axis[1] / largest / length, axis[2] / largest / length};
+  const auto [c, s] = cosine_and_sine(shape.rotation_angle);
+  Rotation r{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) r[i][j] = (1 - c) * u[i] * u[j];
+    r[i][i] += c;
+    r[i][(i + 2) % 3] += s * u[(i + 1) % 3];
+    r[i][(i + 1) % 3] -= s * u[(i + 2) % 3];
+  }
+  return r;
+}
+
+Vec3 to_body(const Rotation& r, const Vec3& d) {
+  Vec3 x{};
+  for (int j = 0; j < 3; ++j) x[j] = r[0][j] * d[0] + r[1][j] * d[1] + r[2][j] * d[2];
+  return x;
+}
+
+/// A polynomial that is negative inside, and the length of its gradient.
+struct Implicit {
+  double value, slope;
+};
+
+Implicit quadric(const Vec3& axes, const Vec3& x) {
+  double value = -1, square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double t = x[i] / axes[i];
+    value += t * t;
+    square += 4 * t * t / (axes[i] * axes[i]);
+  }
+  return {value, std::sqrt(square)};
+}
+
+Implicit torus(double ring, double tube, const Vec3& x) {
+  const double rho_squared = x[0] * x[0] + x[1] * x[1];
+  const double g = rho_squared + x[2] * x[2] + ring * ring - tube * tube;
+  return {g * g - 4 * ring * ring * rho_squared,
+          4 * std::hypot(std::sqrt(rho_squared) * (g - 2 * ring * ring), x[2] * g)};
+}
+
+/// The level set in the shape's own frame, with all that does not depend on the point computed
+/// once.
+class LevelSet {
+public:
+  explicit LevelSet(const Shape& shape)
+      : shape_(shape), rotation_(rotation(shape)), length_(smallest_half_thickness(shape)) {
+    if (shape.kind != ShapeKind::torus) axes_ = semi_axes(shape);
+  }
+
+  /// d: from the shape's centre.
+  double operator()(const Vec3& d) const {
+    const Vec3 x = to_body(rotation_, d);
+    const Implicit f = shape_.kind == ShapeKind::torus
+                           ? torus(shape_.ring_radius, shape_.tube_radius, x)
+                           : quadric(axes_, x);
+    const double level = f.value / length_;
+    return f.value / std::sqrt(f.slope * f.slope + level * level);
+  }
+
+private:
+  Shape shape_;
+  Rotation rotation_;
+  Vec3 axes_{};
+  double length_;
+};
+
+} // namespace
+
+double oblate_axis_ratio(double reduced_volume) {
+  return axis_ratio(reduced_volume, [](double q) { return Vec3{1, 1, q}; });
+}
+
+double prolate_axis_ratio(double reduced_volume) {
+  return axis_ratio(reduced_volume, [](double q) { return Vec3{q, q, 1}; });
+}
+
+Vec3 semi_axes(const Shape& shape) {
+  const double a = shape.semi_axis;
+  switch (shape.kind) {
+  case ShapeKind::oblate:
+    return {a, a, a * oblate_axis_ratio(shape.reduced_volume)};
+  case ShapeKind::prolate: {
+    const double b = a * prolate_axis_ratio(shape.reduced_volume);
+    return {b, b, a};
+  }
+  case ShapeKind::ellipsoid:
+    return shape.semi_axes;
+  default:
+    return {shape.radius, shape.radius, shape.radius};
+  }
+}
+
+double exact_area(const Shape& shape) {
+  if (shape.kind == ShapeKind::torus) return 4 * pi * pi * shape.ring_radius * shape.tube_radius;
+  return ellipsoid_area(semi_axes(shape));
+}
+
+double exact_volume(const Shape& shape) {
+  if (shape.kind == ShapeKind::torus)
+    return 2 * pi * pi * shape.ring_radius * shape.tube_radius * shape.tube_radius;
+  return ellipsoid_volume(semi_axes(shape));
+}
+
+Bounds bounding_box(const Shape& shape) {
+  const Rotation r = rotation(shape);
+  const bool is_torus = shape.kind == ShapeKind::torus;
+  const Vec3 axes = is_torus ? Vec3{shape.ring_radius, shape.ring_radius, 0} : semi_axes(shape);
+  Bounds box{};
+  for (int i = 0; i < 3; ++i) {
+    const double reach = std::hypot(r[i][0] * axes[0], r[i][1] * axes[1], r[i][2] * axes[2]) +
+                         (is_torus ? shape.tube_radius : 0);
+    box.low[i] = shape.center[i] - reach;
+    box.high[i] = shape.center[i] + reach;
+  }
+  return box;
+}
+
+double smallest_half_thickness(const Shape& shape) {
+  if (shape.kind == ShapeKind::torus)
+    return std::min(shape.tube_radius, shape.ring_radius - shape.tube_radius);
+  return std::ranges::min(semi_axes(shape));
+}
+
+double smallest_radius_of_curvature(const Shape& shape) {
+  if (shape.kind == ShapeKind::torus) return smallest_half_thickness(shape);
+  const auto [smallest, largest] = std::ranges::minmax(semi_axes(shape));
+  return smallest * smallest / largest;
+}
+
+double shape_distance(const Shape& shape, const Vec3& point) {
+  const Vec3& c = shape.center;
+  return LevelSet(shape)({point[0] - c[0], point[1] - c[1], point[2] - c[2]});
+}
+
+std::vector<double> initial_phi(const Shape& shape, const Grid& grid) {
+  const LevelSet distance(shape);
+  const double width = std::max(5 * grid.spacing, smallest_half_thickness(shape));
+  std::vector<double> phi(grid.size());
+  for (std::size_t n = 0; n < phi.size(); ++n) {
+    Vec3 d = grid.position(n);
+    for (int i = 0; i < 3; ++i) d[i] = std::remainder(d[i] - shape.center[i], grid.length(i));
+    phi[n] = width * std::tanh(distance(d) / width);
+  }
+  return phi;
+}
+
+} // namespace lamella

@@ -1,0 +1,45 @@
+#pragma once
+#include "grid/grid.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace lamella {
+
+/// Small over large semi-axis of the oblate (a, a, c) and prolate (b, b, a) spheroid of a reduced
+/// volume between 0 and 1: c / a, b / a.
+double oblate_axis_ratio(double reduced_volume);
+double prolate_axis_ratio(double reduced_volume);
+
+/// Semi-axes along the body's own x, y, z of any shape but the torus.
+Vec3 semi_axes(const Shape& shape);
+
+/// Area and volume of the shape itself, to rounding; not those of its level set on a grid.
+double exact_area(const Shape& shape);
+double exact_volume(const Shape& shape);
+
+struct Bounds {
+  Vec3 low, high;
+};
+
+/// The smallest axis-parallel box that holds the rotated, shifted shape.
+Bounds bounding_box(const Shape& shape);
+
+/// Radius of the largest ball that fits inside at the thinnest place: smallest semi-axis, tube
+/// radius. The hole of a torus counts too, as the half-thickness of what lies outside.
+double smallest_half_thickness(const Shape& shape);
+
+/// Smallest radius of curvature anywhere on the surface, in any direction.
+double smallest_radius_of_curvature(const Shape& shape);
+
+/// The start level set at the nodes of a grid, negative inside, x fastest.
+///
+/// With f the polynomial that vanishes on the shape (degree 2; 4 for the torus) and L the smallest
+/// half-thickness, phi = f / sqrt(|grad f|^2 + (f / L)^2): smooth everywhere, |grad phi| = 1 on the
+/// surface. Then phi levels off as W tanh(phi / W), W the larger of L and 5 spacings.
+std::vector<double> initial_phi(const Shape& shape, const Grid& grid);
+
+/// The same level set at one point of unbounded space, before levelling off.
+double shape_distance(const Shape& shape, const Vec3& point);
+
+} // namespace lamella
