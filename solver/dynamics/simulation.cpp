@@ -1,0 +1,220 @@
+#include "dynamics/simulation.h"
+
+#include "error.h"
+#include "levelset/topology.h"
+#include "parallel.h"
+#include "scene/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace lamella {
+
+namespace {
+constexpr double band_half_width = 4.2;  // spacings: the spline's reach and a little more
+constexpr double worst_drift = 1e-6;     // relative error of volume and area that a measured state may have
+constexpr double force_limit = 0.3;      // kappa / h^3: more is noise of an unresolved tip
+constexpr double gauge_limit = 1.6;      // |grad phi| over its mean
+constexpr int steps_between_renormalisations = 5;
+constexpr int fit_sweeps = 60;
+constexpr double margin = 4; // spacings kept free at the sides of the box: half the spline's support
+
+double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
+} // namespace
+
+Simulation::Simulation(const Scene& scene)
+    : bending_{scene.membrane.bending_modulus, scene.membrane.spontaneous_curvature},
+      control_({scene.numerics.tolerance, scene.grid().spacing, scene.membrane.bending_modulus,
+                scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16}),
+      phi_(scene.grid()), fourier_(scene.grid()), band_(scene.grid(), band_half_width), extension_(scene.grid()),
+      gauge_(scene.grid()), stepper_(scene.grid(), fourier_) {
+  const std::vector<double> start = initial_phi(scene.shape, scene.grid());
+  std::copy(start.begin(), start.end(), phi_.coefficients().begin());
+  phi_.fit(start, fourier_, fit_sweeps);
+  measure();
+  measures_ = summarise(0);
+  check(measures_);
+}
+
+Frame Simulation::frame() const {
+  LevelSet phi = phi_;
+  if (broken_) std::copy(stepper_.before().begin(), stepper_.before().end(), phi.coefficients().begin());
+  phi.update_nodal();
+  return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}};
+}
+
+// ------------------------------------------------------------------------------------------------ measuring
+
+/// Brings the membrane onto its constraints and finds everything that is known of it.
+void Simulation::measure() {
+  locate();
+  surface_.curvatures(phi_, band_);
+  integrals_ = integrate(surface_, bending_, {});
+  if (area_ == 0) {
+    area_ = integrals_.area();
+    volume_ = integrals_.volume;
+  } else {
+    project();
+  }
+  measure_forces();
+}
+
+void Simulation::locate() {
+  phi_.update_nodal();
+  band_.update(phi_);
+  surface_.sample(band_);
+  if (surface_.size() == 0) throw RunError("the membrane has disappeared");
+}
+
+/// Displaces the membrane by a + b K_M so that volume and area are those of the start.
+void Simulation::project() {
+  const double h = grid().spacing;
+  for (int pass = 0; pass < 4; pass++) {
+    if (pass) {
+      surface_.curvatures(phi_, band_);
+      integrals_ = integrate(surface_, bending_, {});
+    }
+    const double volume_change = volume_ - integrals_.volume, area_change = area_ - integrals_.area();
+    if (std::max(std::abs(volume_change / volume_), std::abs(area_change / area_)) < worst_drift) return;
+    const Multipliers u = displacement_for(integrals_, volume_change, area_change);
+    auto displacement = [&](std::size_t i) { return std::clamp(u.P + u.sigma * surface_.KM()[i], -0.3 * h, 0.3 * h); };
+    work_.resize(band_.size());
+    for (std::size_t i = 0; i < surface_.size(); i++) work_[surface_.entry()[i]] = displacement(i) * surface_.grad()[i];
+    extension_.complete(band_, surface_.sampled(), 0, work_);
+    std::span<double> c = phi_.coefficients();
+    for (std::size_t s = 0; s < band_.size(); s++)
+      c[band_.node()[s]] -= band_.taper(band_.distance()[s]) * work_[s];
+    const Points p = band_.points();
+    for (std::size_t i = 0; i < surface_.size(); i++) {
+      const int s = surface_.entry()[i];
+      const Vec3 n = surface_.normal(i);
+      const double d = displacement(i);
+      p.x[s] += d * n[0];
+      p.y[s] += d * n[1];
+      p.z[s] += d * n[2];
+    }
+  }
+}
+
+void Simulation::measure_forces() {
+  surface_.jets(phi_, band_);
+  const double h = grid().spacing, limit = force_limit * bending_.bending_modulus / (h * h * h);
+  variation_.resize(surface_.size());
+  max_force_ = 0;
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const double F = bending_.variation(surface_.KM()[i], surface_.K()[i], surface_.lap_KM()[i]);
+    variation_[i] = std::clamp(F, -limit, limit);
+    max_force_ = std::max(max_force_, std::abs(F));
+  }
+  integrals_ = integrate(surface_, bending_, variation_);
+  multipliers_ = multipliers_at_rest(integrals_);
+  max_speed_ = 0;
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const double v = -variation_[i] + multipliers_.sigma * surface_.KM()[i] + multipliers_.P;
+    max_speed_ = std::max(max_speed_, std::abs(v));
+  }
+}
+
+Measures Simulation::summarise(double dt) const {
+  Measures m;
+  const double A = integrals_.area(), V = integrals_.volume, radius = sphere_radius(A), pi = std::numbers::pi;
+  m.time = measures_.time + dt;
+  m.dt = dt;
+  m.energy = m.bending_energy = integrals_.energy;
+  m.int_KM2 = integrals_.int_KM2();
+  m.P = multipliers_.P;
+  m.sigma = multipliers_.sigma;
+  m.area = A;
+  m.volume = V;
+  m.reduced_volume = V / (4. / 3 * pi * radius * radius * radius);
+  m.area_difference = -integrals_.int_KM() / (8 * pi * radius);
+  m.area_drift = A / area_ - 1;
+  m.volume_drift = V / volume_ - 1;
+  m.max_speed = max_speed_;
+  m.components = count_components(grid(), phi_.nodal());
+  m.genus = m.components - int(std::lround(integrals_.int_K() / (4 * pi)));
+  return m;
+}
+
+void Simulation::check(const Measures& m) const {
+  for (double value : {m.energy, m.int_KM2, m.P, m.sigma, m.area, m.volume, m.max_speed})
+    if (!std::isfinite(value)) throw RunError("a measured value is not finite");
+  if (!(m.volume > 0 && m.area > 0)) throw RunError("the membrane no longer encloses a volume");
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const Vec3 p = surface_.point(i);
+    for (int d = 0; d < 3; d++)
+      if (std::abs(p[d]) > 0.5 * grid().length(d) - margin * grid().spacing)
+        throw RunError(fmt::format("the membrane has come within {} grid spacings of a side of the box", margin));
+  }
+}
+
+// ----------------------------------------------------------------------------------------------- time steps
+
+double Simulation::choose_dt(double latest) const {
+  const double dt = steps_ == 0 ? control_.first(max_force_) : control_.next(measures_.dt, error_, max_speed_);
+  const double left = latest - time();
+  if (dt >= left * (1 - 1e-9)) return left;
+  return dt > 0.5 * left ? 0.5 * left : dt;
+}
+
+double Simulation::next_dt() const { return choose_dt(1e300); }
+
+/// d phi / dt = -v |grad phi| at the membrane, carried into the box.
+void Simulation::extend_rates() {
+  work_.resize(band_.size());
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const double v = -variation_[i] + multipliers_.sigma * surface_.KM()[i] + multipliers_.P;
+    work_[surface_.entry()[i]] = -v * surface_.grad()[i];
+  }
+  extension_.complete(band_, surface_.sampled(), 0, work_);
+  extension_.fill(band_, work_);
+}
+
+void Simulation::step(double latest) {
+  const double dt = choose_dt(latest);
+  extend_rates();
+  gauge_.filter(phi_, band_);
+  const double C = bending_.spontaneous_curvature, kappa = bending_.bending_modulus;
+  stepper_.advance(phi_, extension_, dt, {kappa, std::max(0.0, multipliers_.sigma + 0.5 * kappa * C * C)});
+  error_ = step_error();
+  steps_++;
+  broken_ = true;
+  measure();
+  const Measures now = summarise(dt);
+  check(now);
+  measures_ = now;
+  broken_ = false;
+  renormalise_if_needed();
+}
+
+/// 2 rms |c_new - ratio c_old| / (|grad phi| h) over the nodes next to the membrane.
+double Simulation::step_error() const {
+  const double ratio = stepper_.step_ratio(), h = grid().spacing;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const int s = surface_.entry()[i];
+    if (std::abs(band_.distance()[s]) > h) continue;
+    const int node = band_.node()[s];
+    const double e = (stepper_.increment()[node] - ratio * stepper_.previous_increment()[node]) / surface_.grad()[i];
+    sum += e * e;
+    count++;
+  }
+  return ratio == 0 || count == 0 ? 0 : 2 * std::sqrt(sum / double(count)) / h;
+}
+
+void Simulation::renormalise_if_needed() {
+  grad_.resize(band_.size());
+  for (std::size_t i = 0; i < surface_.size(); i++) grad_[surface_.entry()[i]] = surface_.grad()[i];
+  const GaugeRange range = gauge_range(band_, grad_);
+  if (std::max(range.greatest, 1 / range.least) < gauge_limit) return;
+  if (steps_ - renormalised_ < steps_between_renormalisations) return;
+  extension_.complete(band_, surface_.sampled(), range.mean, grad_);
+  stepper_.rescale(gauge_.renormalise(phi_, band_, grad_, extension_, fourier_));
+  renormalised_ = steps_;
+  measure();
+}
+
+} // namespace lamella

@@ -1,0 +1,28 @@
+#pragma once
+#include "energy/helfrich.h"
+#include "geometry/surface_geometry.h"
+
+#include <Eigen/Core>
+
+namespace lamella {
+
+/// Integrals over the membrane that measures and multipliers are made of. The three functions 1, K_M, K of the
+/// surface are what the multipliers P, sigma, sigma_DA push along.
+struct SurfaceIntegrals {
+  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();      ///< int g_i g_j dA, g = (1, K_M, K)
+  Eigen::Vector3d variation = Eigen::Vector3d::Zero(); ///< int g_i F dA, F the energy's variation
+  double volume = 0;                                   ///< 1/3 int p.N dA
+  double energy = 0;                                   ///< bending energy
+
+  double area() const { return gram(0, 0); }
+  double int_KM() const { return gram(0, 1); }
+  double int_K() const { return gram(0, 2); }
+  double int_KM2() const { return gram(1, 1); }
+
+  SurfaceIntegrals& operator+=(const SurfaceIntegrals& other);
+};
+
+/// `variation`: F at the samples; empty leaves those integrals 0.
+SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending, std::span<const double> variation);
+
+} // namespace lamella

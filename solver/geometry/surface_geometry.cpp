@@ -1,0 +1,67 @@
+#include "geometry/surface_geometry.h"
+
+#include "levelset/quadrature.h"
+#include "parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamella {
+
+namespace {
+constexpr double reach_inside = 1.8; // spacings; the quadrature kernel and linear interpolation need no more
+constexpr std::size_t chunk = 256;
+} // namespace
+
+void SurfaceGeometry::sample(const NarrowBand& band) {
+  grid_ = band.grid();
+  const double h = grid_.spacing;
+  sampled_.resize(band.size());
+  entry_.clear();
+  for (std::size_t s = 0; s < band.size(); s++) {
+    const double d = band.distance()[s] / h;
+    sampled_[s] = d > -reach_inside && d < QuadratureKernel::end;
+    if (sampled_[s]) entry_.push_back(int(s));
+  }
+  for (auto* a : {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &weight_}) a->resize(size());
+}
+
+void SurfaceGeometry::curvatures(const LevelSet& phi, NarrowBand& band) { evaluate(phi, band, false); }
+void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band) { evaluate(phi, band, true); }
+
+void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order) {
+  const SplineView spline = phi.view();
+  const Points p = band.points();
+  parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      x_[i] = p.x[entry_[i]];
+      y_[i] = p.y[entry_[i]];
+      z_[i] = p.z[entry_[i]];
+    }
+    const SurfaceArrays out{&phi_[begin], &nx_[begin], &ny_[begin], &nz_[begin],
+                            &grad_[begin], &KM_[begin], &K_[begin], &lap_KM_[begin]};
+    (fourth_order ? kernels().jets : kernels().curvatures)(spline, end - begin, {&x_[begin], &y_[begin], &z_[begin]},
+                                                           out);
+    finish(band, begin, end);
+  });
+}
+
+/// Limits curvatures to what the grid can carry, takes the last bit of the way onto {phi = 0}, and weighs.
+void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t end) {
+  const double h = grid_.spacing, longest = 0.5 * h, KM_limit = 2 / h, K_limit = 1 / (h * h);
+  const Points p = band.points();
+  for (std::size_t i = begin; i < end; i++) {
+    const int s = entry_[i];
+    KM_[i] = std::clamp(KM_[i], -KM_limit, KM_limit);
+    K_[i] = std::clamp(K_[i], -K_limit, K_limit);
+    const double move = std::clamp(-phi_[i] / grad_[i], -longest, longest);
+    p.x[s] = x_[i] += move * nx_[i];
+    p.y[s] = y_[i] += move * ny_[i];
+    p.z[s] = z_[i] += move * nz_[i];
+    const Vec3 node = grid_.position(band.node()[s]);
+    const double d = (node[0] - x_[i]) * nx_[i] + (node[1] - y_[i]) * ny_[i] + (node[2] - z_[i]) * nz_[i];
+    weight_[i] = QuadratureKernel::weight(d, KM_[i], K_[i], h);
+  }
+}
+
+} // namespace lamella

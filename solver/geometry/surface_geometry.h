@@ -1,0 +1,49 @@
+#pragma once
+#include "grid/memory.h"
+#include "levelset/narrow_band.h"
+
+#include <span>
+#include <vector>
+
+namespace lamella {
+
+/// The membrane as a cloud of samples: the nearest points of the band nodes within a few spacings of it, each
+/// with the geometry of the surface there and a quadrature weight. About 5 samples a squared spacing.
+///
+/// K_M = -2 and K = 1 on the unit sphere; N points outwards.
+class SurfaceGeometry {
+public:
+  /// Takes the samples that the band offers.
+  void sample(const NarrowBand& band);
+
+  /// Normals, |grad phi|, K_M and K at the sample points (second derivatives of phi), and weights.
+  void curvatures(const LevelSet& phi, NarrowBand& band);
+  /// The same and Lap_s K_M (fourth derivatives).
+  void jets(const LevelSet& phi, NarrowBand& band);
+
+  std::size_t size() const { return entry_.size(); }
+  /// Band index of each sample.
+  std::span<const int> entry() const { return entry_; }
+  /// 1 for the band entries that are samples, 0 for the others.
+  std::span<const char> sampled() const { return sampled_; }
+
+  std::span<const double> grad() const { return grad_; }
+  std::span<const double> KM() const { return KM_; }
+  std::span<const double> K() const { return K_; }
+  std::span<const double> lap_KM() const { return lap_KM_; }
+  /// int f dA = sum of weight f.
+  std::span<const double> weight() const { return weight_; }
+  Vec3 point(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  Vec3 normal(std::size_t i) const { return {nx_[i], ny_[i], nz_[i]}; }
+
+private:
+  void evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order);
+  void finish(NarrowBand& band, std::size_t begin, std::size_t end);
+
+  Grid grid_;
+  std::vector<int> entry_;
+  std::vector<char> sampled_;
+  Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, weight_;
+};
+
+} // namespace lamella

@@ -1,0 +1,40 @@
+#pragma once
+#include "levelset/narrow_band.h"
+
+#include <span>
+#include <vector>
+
+namespace lamella {
+
+/// Carries values from the membrane into the box.
+class Extension {
+public:
+  explicit Extension(const Grid& grid);
+
+  /// Band values where `known` is 0: linear interpolation, at the node's nearest point, of the known values
+  /// around it (`fallback` where there are none).
+  void complete(const NarrowBand& band, std::span<const char> known, double fallback, std::span<double> value) const;
+
+  /// Prepares plane(): values of the band, tapered at its edge, and beyond it averages over ever larger cubes
+  /// (a push-pull pyramid, cell centred, hence mirror symmetric).
+  void fill(const NarrowBand& band, std::span<const double> value);
+
+  /// Extended values at the nodes of plane k.
+  void plane(int k, double* out) const;
+
+private:
+  struct Level {
+    int nodes[3];
+    Array<double> value, weight;
+    std::size_t row(int j, int k) const { return (std::size_t(k) * nodes[1] + j) * nodes[0]; }
+  };
+  void push(const Level& fine, Level& coarse) const;
+  void pull(const Level& coarse, Level& fine) const;
+
+  Grid grid_;
+  std::vector<Level> levels_; // 2, 4, 8 ... nodes of the grid a cell
+  const NarrowBand* band_ = nullptr;
+  std::vector<double> tapered_, taper_;
+};
+
+} // namespace lamella

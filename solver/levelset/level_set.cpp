@@ -1,0 +1,49 @@
+#include "levelset/level_set.h"
+
+#include "parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamella {
+
+LevelSet::LevelSet(const Grid& grid) : grid_(grid), coefficients_(grid.size(), 0.0), nodal_(grid.size(), 0.0) {}
+
+SplineView LevelSet::view() const {
+  return {coefficients_.data(),
+          {grid_.nx(), grid_.ny(), grid_.nz()},
+          {grid_.origin(0), grid_.origin(1), grid_.origin(2)},
+          1 / grid_.spacing};
+}
+
+void LevelSet::update_nodal() {
+  const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
+  parallel_for(grid_.nz(), 4, [&](std::size_t begin, std::size_t end) {
+    thread_local Array<double> scratch;
+    scratch.resize(plane + 2 * grid_.nx() + 6);
+    for (std::size_t k = begin; k < end; k++)
+      kernels().nodal_plane(view(), int(k), scratch.data(), &nodal_[k * plane]);
+  });
+}
+
+void LevelSet::fit(std::span<const double> values, Fourier& fourier, int sweeps) {
+  update_nodal();
+  const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
+  auto residual = [&](int k, double* out) {
+    for (std::size_t i = 0; i < plane; i++) out[i] = values[k * plane + i] - nodal_[k * plane + i];
+  };
+  auto invert = [&](int ky, int kz, std::complex<double>* row) {
+    const double across = fourier.spline_symbol(1, ky) * fourier.spline_symbol(2, kz);
+    for (int kx = 0; kx < fourier.row_modes(); kx++) {
+      const double symbol = across * fourier.spline_symbol(0, kx);
+      row[kx] *= (1 - std::pow(1 - symbol, sweeps)) / (symbol * double(grid_.size()));
+    }
+  };
+  auto add = [&](int k, const double* increment) {
+    for (std::size_t i = 0; i < plane; i++) coefficients_[k * plane + i] += increment[i];
+  };
+  fourier.apply(residual, invert, add);
+  update_nodal();
+}
+
+} // namespace lamella

@@ -1,0 +1,37 @@
+#pragma once
+#include "grid/fourier.h"
+#include "grid/grid.h"
+#include "grid/memory.h"
+#include "kernels/kernels.h"
+
+#include <span>
+#include <vector>
+
+namespace lamella {
+
+/// A smooth level set: degree-7 tensor B-spline on a periodic grid, negative inside the membrane {phi = 0}.
+/// phi need not be a distance; |grad phi| on the membrane should be of order 1 (see gauge.h).
+class LevelSet {
+public:
+  explicit LevelSet(const Grid& grid);
+
+  const Grid& grid() const { return grid_; }
+  SplineView view() const;
+
+  std::span<double> coefficients() { return coefficients_; }
+  std::span<const double> coefficients() const { return coefficients_; }
+  /// Values at the nodes, as of the last update_nodal() or fit().
+  std::span<const double> nodal() const { return nodal_; }
+
+  void update_nodal();
+
+  /// Coefficients whose nodal values are `values`, up to grid-scale content that the spline would turn into
+  /// ringing: the limit of `sweeps` sweeps c <- c + (values - nodal(c)), done at once in Fourier space.
+  void fit(std::span<const double> values, Fourier& fourier, int sweeps);
+
+private:
+  Grid grid_;
+  Array<double> coefficients_, nodal_;
+};
+
+} // namespace lamella

@@ -1,0 +1,242 @@
+#include "levelset/narrow_band.h"
+
+#include "parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamella {
+
+namespace {
+
+constexpr double taper_start = 2.5; // spacings
+constexpr int unset = -1;
+constexpr std::size_t chunk = 512;
+
+/// f(neighbour) for the up to six neighbours of a node.
+/// The band does not wrap: scenes keep the membrane clear of the sides of the box.
+template <class F> void for_each_neighbour(const Grid& grid, int node, F&& f) {
+  const int nx = grid.nx(), nxy = nx * grid.ny();
+  const int i = node % nx, j = node / nx % grid.ny(), k = node / nxy;
+  if (i > 0) f(node - 1);
+  if (i < grid.nx() - 1) f(node + 1);
+  if (j > 0) f(node - nx);
+  if (j < grid.ny() - 1) f(node + nx);
+  if (k > 0) f(node - nxy);
+  if (k < grid.nz() - 1) f(node + nxy);
+}
+
+} // namespace
+
+NarrowBand::NarrowBand(const Grid& grid, double half_width)
+    : grid_(grid), half_width_(half_width), slot_(grid.size(), unset), plane_begin_(grid.nz() + 1, 0) {}
+
+double NarrowBand::taper(double distance) const {
+  const double s = std::abs(distance) / grid_.spacing;
+  if (s < taper_start) return 1;
+  if (s > half_width_) return 0;
+  const double u = (half_width_ - s) / (half_width_ - taper_start);
+  return u * u * (3 - 2 * u);
+}
+
+double NarrowBand::distance2(int node, const double* p) const {
+  const Vec3 x = grid_.position(node);
+  return (x[0] - p[0]) * (x[0] - p[0]) + (x[1] - p[1]) * (x[1] - p[1]) + (x[2] - p[2]) * (x[2] - p[2]);
+}
+
+void NarrowBand::update(const LevelSet& phi) {
+  refresh(phi);
+  repair(phi);
+  grow(phi);
+}
+
+/// One Newton step for every node that was in the band.
+void NarrowBand::refresh(const LevelSet& phi) {
+  distance_.resize(size());
+  parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
+    double x[3][chunk], step[chunk];
+    const std::size_t n = end - begin;
+    for (std::size_t s = 0; s < n; s++) {
+      const Vec3 at = grid_.position(node_[begin + s]);
+      for (int d = 0; d < 3; d++) x[d][s] = at[d];
+    }
+    kernels().closest_points(phi.view(), n, {x[0], x[1], x[2]}, {&px_[begin], &py_[begin], &pz_[begin]}, 1, false,
+                             step);
+    for (std::size_t s = begin; s < end; s++) {
+      const double p[3] = {px_[s], py_[s], pz_[s]};
+      distance_[s] = std::sqrt(distance2(node_[s], p));
+    }
+  });
+}
+
+/// Nodes whose neighbour knows a nearer point (another sheet has come closer) start again from it.
+void NarrowBand::repair(const LevelSet& phi) {
+  std::vector<std::vector<Entry>> found((size() + chunk - 1) / chunk);
+  parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; s++) {
+      double nearest = distance_[s] * distance_[s] * (1 - 1e-6) - 1e-6 * grid_.spacing * grid_.spacing;
+      int from = unset;
+      for_each_neighbour(grid_, node_[s], [&](int m) {
+        const int t = slot_[m];
+        if (t == unset) return;
+        const double p[3] = {px_[t], py_[t], pz_[t]}, d2 = distance2(node_[s], p);
+        if (d2 < nearest) {
+          nearest = d2;
+          from = t;
+        }
+      });
+      if (from != unset) found[begin / chunk].push_back({node_[s], {px_[from], py_[from], pz_[from]}, 0});
+    }
+  });
+  std::vector<Entry> entries;
+  for (const auto& part : found) entries.insert(entries.end(), part.begin(), part.end());
+  solve(phi, entries, 4);
+  for (const Entry& e : entries) {
+    const int s = slot_[e.node];
+    if (e.distance >= distance_[s]) continue;
+    px_[s] = e.p[0];
+    py_[s] = e.p[1];
+    pz_[s] = e.p[2];
+    distance_[s] = e.distance;
+  }
+}
+
+/// Newton iterations from the points that the entries bring along; sets their distances.
+void NarrowBand::solve(const LevelSet& phi, std::vector<Entry>& entries, int iterations) const {
+  parallel_for(entries.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    double x[3][chunk], p[3][chunk], step[chunk];
+    const std::size_t n = end - begin;
+    for (std::size_t s = 0; s < n; s++) {
+      const Vec3 at = grid_.position(entries[begin + s].node);
+      for (int d = 0; d < 3; d++) {
+        x[d][s] = at[d];
+        p[d][s] = entries[begin + s].p[d];
+      }
+    }
+    kernels().closest_points(phi.view(), n, {x[0], x[1], x[2]}, {p[0], p[1], p[2]}, iterations, true, step);
+    for (std::size_t s = 0; s < n; s++) {
+      Entry& e = entries[begin + s];
+      for (int d = 0; d < 3; d++) e.p[d] = p[d][s];
+      e.distance = std::sqrt(distance2(e.node, e.p));
+    }
+  });
+}
+
+/// Ends of sign-change edges that the band does not hold (all of them, for a new band), each with the nearest
+/// of its edges' crossings.
+std::vector<NarrowBand::Entry> NarrowBand::seeds(const LevelSet& phi) const {
+  const std::span<const double> f = phi.nodal();
+  const int nx = grid_.nx(), ny = grid_.ny(), nz = grid_.nz();
+  const int stride[3] = {1, nx, nx * ny};
+  std::vector<std::vector<Entry>> found(nz);
+  auto crossing = [&](std::vector<Entry>& out, int node, int d) {
+    const int other = node + stride[d];
+    const double t = f[node] / (f[node] - f[other]), h = grid_.spacing;
+    Vec3 p = grid_.position(node);
+    p[d] += t * h;
+    if (slot_[node] == unset) out.push_back({node, {p[0], p[1], p[2]}, t * h});
+    if (slot_[other] == unset) out.push_back({other, {p[0], p[1], p[2]}, (1 - t) * h});
+  };
+  parallel_for(nz, 1, [&](std::size_t k, std::size_t) {
+    for (int j = 0; j < ny; j++) {
+      const int row = (int(k) * ny + j) * nx;
+      const double* a = &f[row];
+      const double* up[3] = {a + 1, j + 1 < ny ? a + nx : a, int(k) + 1 < nz ? a + nx * ny : a};
+      for (int i = 0; i < nx - 1; i++) {
+        const bool s = a[i] < 0, sx = up[0][i] < 0, sy = up[1][i] < 0, sz = up[2][i] < 0;
+        if (!((s != sx) | (s != sy) | (s != sz))) continue;
+        if (s != sx) crossing(found[k], row + i, 0);
+        if (s != sy) crossing(found[k], row + i, 1);
+        if (s != sz) crossing(found[k], row + i, 2);
+      }
+    }
+  });
+  std::vector<Entry> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// Nodes next to the frontier that have no entry yet, starting from the frontier's points.
+std::vector<NarrowBand::Entry> NarrowBand::neighbours(std::span<const Entry> frontier) const {
+  const double reach = half_width_ * grid_.spacing;
+  std::vector<std::vector<Entry>> found((frontier.size() + chunk - 1) / chunk);
+  parallel_for(frontier.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; s++) {
+      const Entry& e = frontier[s];
+      if (e.distance > reach) continue;
+      for_each_neighbour(grid_, e.node, [&](int m) {
+        if (slot_[m] != unset) return;
+        const double d = std::sqrt(distance2(m, e.p));
+        if (d <= reach + grid_.spacing) found[begin / chunk].push_back({m, {e.p[0], e.p[1], e.p[2]}, d});
+      });
+    }
+  });
+  std::vector<Entry> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// March outwards from the band's outer nodes, and from sign changes of phi that the band does not cover.
+void NarrowBand::grow(const LevelSet& phi) {
+  constexpr int pending = -2;
+  const double h = grid_.spacing, reach = half_width_ * h;
+  std::vector<Entry> frontier, added;
+  for (std::size_t s = 0; s < size(); s++)
+    if (distance_[s] > reach - 2 * h) frontier.push_back({node_[s], {px_[s], py_[s], pz_[s]}, distance_[s]});
+  std::vector<Entry> candidates = seeds(phi);
+  for (bool first = true; first || !frontier.empty(); first = false) {
+    std::vector<Entry> next = neighbours(frontier);
+    candidates.insert(candidates.end(), next.begin(), next.end());
+    std::sort(candidates.begin(), candidates.end(), [](const Entry& a, const Entry& b) {
+      return a.node != b.node ? a.node < b.node : a.distance < b.distance;
+    });
+    candidates.erase(std::unique(candidates.begin(), candidates.end(),
+                                 [](const Entry& a, const Entry& b) { return a.node == b.node; }),
+                     candidates.end());
+    solve(phi, candidates, 5);
+    for (const Entry& e : candidates) slot_[e.node] = pending;
+    added.insert(added.end(), candidates.begin(), candidates.end());
+    frontier = std::move(candidates);
+    candidates.clear();
+  }
+  rebuild(phi, added);
+}
+
+/// Drop nodes out of reach, take in the new ones, and keep everything in the order of the grid.
+void NarrowBand::rebuild(const LevelSet& phi, std::vector<Entry>& added) {
+  const double reach = half_width_ * grid_.spacing;
+  std::sort(added.begin(), added.end(), [](const Entry& a, const Entry& b) { return a.node < b.node; });
+  const bool grows = !added.empty();
+  std::vector<int> node;
+  Array<double> p[3], distance;
+  auto take = [&](int n, double x, double y, double z, double d) {
+    slot_[n] = unset;
+    if (d > reach) return;
+    slot_[n] = int(node.size());
+    node.push_back(n);
+    p[0].push_back(x);
+    p[1].push_back(y);
+    p[2].push_back(z);
+    distance.push_back(phi.nodal()[n] < 0 ? -d : d);
+  };
+  node.reserve(size() + added.size());
+  std::size_t a = 0;
+  for (std::size_t s = 0; s < size(); s++) {
+    for (; grows && a < added.size() && added[a].node < node_[s]; a++)
+      take(added[a].node, added[a].p[0], added[a].p[1], added[a].p[2], added[a].distance);
+    take(node_[s], px_[s], py_[s], pz_[s], distance_[s]);
+  }
+  for (; a < added.size(); a++) take(added[a].node, added[a].p[0], added[a].p[1], added[a].p[2], added[a].distance);
+  node_.swap(node);
+  px_.swap(p[0]);
+  py_.swap(p[1]);
+  pz_.swap(p[2]);
+  distance_.swap(distance);
+  const int plane = grid_.nx() * grid_.ny();
+  for (int k = 0, s = 0; k <= grid_.nz(); k++) {
+    while (s < int(size()) && node_[s] < k * plane) s++;
+    plane_begin_[k] = s;
+  }
+}
+
+} // namespace lamella
