@@ -1,0 +1,94 @@
+#include "render/labels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace lamella::render {
+namespace {
+
+constexpr std::array<const char*, 10> superscripts{"⁰", "¹", "²", "³", "⁴",
+                                                   "⁵", "⁶", "⁷", "⁸", "⁹"};
+
+std::string superscript(int value) {
+  std::string text;
+  for (char c : std::to_string(value)) text += c == '-' ? "⁻" : superscripts[c - '0'];
+  return text;
+}
+
+/// A true minus sign instead of the hyphen.
+std::string with_minus(std::string text) {
+  return text.starts_with('-') ? "−" + text.substr(1) : text;
+}
+
+/// The largest of 1, 2, 2.5 or 5 times a power of ten that is not above `most`.
+double round_step(double most) {
+  const double power = std::pow(10, std::floor(std::log10(most) + 1e-9));
+  for (double m : {5.0, 2.5, 2.0})
+    if (m * power <= most * (1 + 1e-9)) return m * power;
+  return power;
+}
+
+} // namespace
+
+std::string power_of_ten(int exponent) { return "10" + superscript(exponent); }
+
+std::string number(double value, int digits) {
+  if (value == 0) return "0";
+  const std::string rounded = fmt::format("{:.{}e}", value, digits - 1); // d.dde-03
+  const std::size_t e = rounded.find('e');
+  const int exponent = std::stoi(rounded.substr(e + 1));
+  if (exponent >= -2 && exponent < 5) return with_minus(fmt::format("{:g}", std::stod(rounded)));
+  return with_minus(fmt::format("{:g}", std::stod(rounded.substr(0, e)))) + "×" +
+         power_of_ten(exponent);
+}
+
+std::string plain(const std::string& text) {
+  static const std::vector<std::pair<std::string_view, std::string_view>> replacements{
+      {"×", "x"}, {"−", "-"}, {"κ", "kappa"}, {"ζ", "zeta"}, {" ", " "}};
+  std::string out;
+  bool raised = false; // inside a run of superscripts
+  for (std::size_t i = 0; i < text.size();) {
+    const std::string_view rest = std::string_view(text).substr(i);
+    const auto raise = [&](std::string_view symbol, std::string_view ascii) {
+      if (!rest.starts_with(symbol)) return false;
+      out += raised ? "" : "^";
+      out += ascii;
+      i += symbol.size();
+      return raised = true;
+    };
+    bool done = raise("⁻", "-");
+    for (int d = 0; d < 10 && !done; ++d) done = raise(superscripts[d], std::to_string(d));
+    if (done) continue;
+    raised = false;
+    const auto found =
+        std::find_if(replacements.begin(), replacements.end(),
+                     [&](const auto& replacement) { return rest.starts_with(replacement.first); });
+    out += found == replacements.end() ? rest.substr(0, 1) : found->second;
+    i += found == replacements.end() ? 1 : found->first.size();
+  }
+  return out;
+}
+
+Ticks linear_ticks(double low, double high) {
+  const double step = round_step((high - low) / 3);
+  const double largest = std::max(std::abs(low), std::abs(high));
+  const int magnitude = int(std::floor(std::log10(largest) + 1e-9));
+  Ticks ticks;
+  ticks.exponent = magnitude < -2 || magnitude >= 5 ? magnitude : 0;
+  const double unit = std::pow(10, ticks.exponent);
+  int decimals = 0;
+  for (double s = step / unit; std::abs(s - std::round(s)) > 1e-6; s *= 10) ++decimals;
+  for (double n = std::ceil(low / step - 1e-6); n * step <= high + 1e-6 * step; ++n) {
+    ticks.positions.push_back(n * step);
+    ticks.labels.push_back(n == 0 ? "0"
+                                  : with_minus(fmt::format("{:.{}f}", n * step / unit, decimals)));
+  }
+  return ticks;
+}
+
+} // namespace lamella::render

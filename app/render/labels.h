@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace lamella::render {
+
+/// A number as it is set in print, to `digits` significant digits without trailing zeros: "0.25",
+/// "1.6×10⁻³". Powers of ten appear below 0.01 and from 10⁵ on.
+std::string number(double value, int digits = 3);
+
+/// "10⁻³"
+std::string power_of_ten(int exponent);
+
+/// The text in ASCII, for messages and for fonts without Greek and superscripts: "1.6x10^-3".
+std::string plain(const std::string& text);
+
+/// Ticks of a linear axis.
+struct Ticks {
+  std::vector<double> positions;
+  std::vector<std::string> labels; ///< of position / 10^exponent
+  int exponent = 0;                ///< 0 unless the labels would be very small or large
+};
+
+/// Three to eight round positions within [low, high], low < high.
+Ticks linear_ticks(double low, double high);
+
+} // namespace lamella::render

@@ -1,0 +1,140 @@
+#include "render/membrane_view.h"
+
+#include "render/style.h"
+
+#include <vtkActor.h>
+#include <vtkBoundingBox.h>
+#include <vtkCamera.h>
+#include <vtkFloatArray.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lamella::render {
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// A distant light from a direction given in view axes: right, up, toward the eye.
+void add_light(vtkRenderer& renderer, const Viewpoint& viewpoint, const Vec3& from,
+               double intensity) {
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(viewpoint.lift(from).data());
+  light->SetFocalPoint(0, 0, 0);
+  light->SetIntensity(intensity);
+  renderer.AddLight(light);
+}
+
+/// The membrane's colour at every point: darker where little ambient light comes in, and toward the
+/// rim, which sets the shape off against the white paper.
+vtkSmartPointer<vtkUnsignedCharArray> tone(vtkPolyData& mesh, const Vec3& toward_eye) {
+  auto* normals = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetNormals());
+  auto* occlusion = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetArray("occlusion"));
+  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  unsigned char* out = colors->GetPointer(0);
+  const float* normal = normals->GetPointer(0);
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n, normal += 3, out += 3) {
+    const double facing = std::clamp(dot({normal[0], normal[1], normal[2]}, toward_eye), 0.0, 1.0);
+    const double rim = std::pow(1 - facing, 3);
+    const double open = 1 - 0.6 * occlusion->GetValue(n);
+    const double light = open * (1 - 0.18 * rim);
+    out[0] =
+        static_cast<unsigned char>(style::membrane.r * std::pow(light, 0.8)); // shadows stay warm
+    out[1] = static_cast<unsigned char>(style::membrane.g * light);
+    out[2] = static_cast<unsigned char>(style::membrane.b * light);
+  }
+  return colors;
+}
+
+vtkSmartPointer<vtkActor> membrane_actor(const Surface& surface, const Vec3& toward_eye) {
+  vtkNew<vtkPolyData> mesh;
+  mesh->ShallowCopy(surface.mesh);
+  mesh->GetPointData()->SetScalars(tone(*mesh, toward_eye));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(mesh);
+  mapper->SetColorModeToDirectScalars();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty* matte = actor->GetProperty();
+  matte->SetInterpolationToPhong();
+  matte->SetAmbient(0.44);
+  matte->SetDiffuse(0.72);
+  matte->SetSpecular(0.07);
+  matte->SetSpecularPower(9);
+  return actor;
+}
+
+} // namespace
+
+void Extent::include(const Vec2& p) {
+  for (int a = 0; a < 2; ++a) low[a] = std::min(low[a], p[a]), high[a] = std::max(high[a], p[a]);
+}
+
+void Extent::include(const Extent& other) {
+  include(other.low);
+  include(other.high);
+}
+
+Viewpoint::Viewpoint(double elevation) {
+  const double angle = elevation * std::numbers::pi / 180;
+  up_ = {0, std::sin(angle), std::cos(angle)};
+  toward_eye_ = {0, -std::cos(angle), std::sin(angle)};
+}
+
+Viewpoint Viewpoint::suited_to(const std::vector<const Surface*>& surfaces) {
+  constexpr double oblique = 30, nearly_level = 12;
+  vtkBoundingBox box;
+  for (const Surface* surface : surfaces) box.AddBounds(surface->mesh->GetBounds());
+  const bool tall = box.GetLength(2) > 1.2 * std::max(box.GetLength(0), box.GetLength(1));
+  return Viewpoint(tall ? nearly_level : oblique);
+}
+
+Vec2 Viewpoint::project(const Vec3& p) const { return {p[0], dot(p, up_)}; }
+
+Vec3 Viewpoint::lift(const Vec3& view) const {
+  Vec3 p{view[0], 0, 0};
+  for (int a = 0; a < 3; ++a) p[a] += view[1] * up_[a] + view[2] * toward_eye_[a];
+  return p;
+}
+
+Extent view_extent(const Surface& surface, const Viewpoint& viewpoint) {
+  Extent extent;
+  for (vtkIdType n = 0; n < surface.mesh->GetNumberOfPoints(); ++n) {
+    Vec3 p;
+    surface.mesh->GetPoint(n, p.data());
+    extent.include(viewpoint.project(p));
+  }
+  return extent;
+}
+
+vtkSmartPointer<vtkRenderer> membrane_view(const Surface& surface, const Viewpoint& viewpoint,
+                                           const Vec2& center, double height) {
+  auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  renderer->SetBackground(1, 1, 1);
+  renderer->AutomaticLightCreationOff();
+  add_light(*renderer, viewpoint, {-0.45, 0.80, 0.65}, 0.68); // key, from the upper left
+  add_light(*renderer, viewpoint, {0.75, 0.10, 0.65}, 0.30);  // fill, from the right
+  add_light(*renderer, viewpoint, {0.05, -0.70, 0.40}, 0.22); // as paper would reflect, from below
+  renderer->AddActor(membrane_actor(surface, viewpoint.lift({0, 0, 1})));
+
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(height / 2);
+  camera->SetFocalPoint(viewpoint.lift({center[0], center[1], 0}).data());
+  camera->SetPosition(viewpoint.lift({center[0], center[1], 1}).data());
+  camera->SetViewUp(viewpoint.lift({0, 1, 0}).data());
+  renderer->ResetCameraClippingRange();
+  return renderer;
+}
+
+} // namespace lamella::render

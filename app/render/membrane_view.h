@@ -1,0 +1,46 @@
+#pragma once
+#include "render/sheet.h"
+#include "render/surface.h"
+
+#include <vtkRenderer.h>
+
+namespace lamella::render {
+
+/// A rectangle in the plane of a picture, lengths of the box.
+struct Extent {
+  Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+
+  void include(const Vec2& p);
+  void include(const Extent& other);
+  double width() const { return high[0] - low[0]; }
+  double height() const { return high[1] - low[1]; }
+  Vec2 center() const { return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2}; }
+};
+
+/// Where membranes are seen from, in parallel projection: along y and from above, so that x points
+/// to the right at full length, as in a cross-section.
+class Viewpoint {
+public:
+  /// `elevation` of the eye above the x-y plane in degrees.
+  explicit Viewpoint(double elevation);
+  /// The one that suits a shape: flat ones are seen obliquely (their dimples show), tall ones
+  /// almost from the side (they keep their length).
+  static Viewpoint suited_to(const std::vector<const Surface*>& surfaces);
+
+  Vec2 project(const Vec3& p) const;
+  /// A point, or direction, from its place in the view: right, up, toward the eye.
+  Vec3 lift(const Vec3& view) const;
+
+private:
+  Vec3 up_, toward_eye_;
+};
+
+/// What a membrane covers in the plane of its view.
+Extent view_extent(const Surface& surface, const Viewpoint& viewpoint);
+
+/// The lit membrane. `center` is the point of the view plane in the middle of the panel, `height`
+/// the panel's height as a length of the box.
+vtkSmartPointer<vtkRenderer> membrane_view(const Surface& surface, const Viewpoint& viewpoint,
+                                           const Vec2& center, double height);
+
+} // namespace lamella::render

@@ -1,0 +1,86 @@
+#include "render/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamella::render {
+namespace {
+
+constexpr int taps = 6;
+
+/// Lagrange weights of the nodes -2 .. 3 at position t.
+std::array<double, taps> lagrange_weights(double t) {
+  std::array<double, taps> weights;
+  for (int i = 0; i < taps; ++i) {
+    weights[i] = 1;
+    for (int j = 0; j < taps; ++j)
+      if (j != i) weights[i] *= (t - (j - 2)) / (i - j);
+  }
+  return weights;
+}
+
+/// Refine along one axis; `inner` values lie between neighbours along it, `outer` is the number of
+/// lines' sets.
+std::vector<double> refine_axis(const std::vector<double>& in, int nodes, std::size_t inner,
+                                int factor) {
+  const std::size_t outer = in.size() / (nodes * inner);
+  std::vector<double> out(in.size() * factor);
+  for (std::size_t o = 0; o < outer; ++o)
+    for (int i = 0; i < nodes * factor; ++i) {
+      const double position = (i + 0.5) / factor - 0.5; // in old nodes; cells stay aligned
+      const int base = int(std::floor(position));
+      const auto weights = lagrange_weights(position - base);
+      std::array<const double*, taps> rows;
+      for (int k = 0; k < taps; ++k)
+        rows[k] = &in[(o * nodes + std::clamp(base - 2 + k, 0, nodes - 1)) * inner];
+      double* row = &out[(o * nodes * factor + i) * inner];
+      for (std::size_t q = 0; q < inner; ++q) {
+        double sum = 0;
+        for (int k = 0; k < taps; ++k) sum += weights[k] * rows[k][q];
+        row[q] = sum;
+      }
+    }
+  return out;
+}
+
+} // namespace
+
+Frame crop(const Frame& frame, double margin) {
+  const Grid& grid = frame.grid;
+  std::array<int, 3> cut; // layers to drop at both ends
+  for (int a = 0; a < 3; ++a) cut[a] = grid.nodes[a] / 2;
+  for (int k = 0; k < grid.nz(); ++k)
+    for (int j = 0; j < grid.ny(); ++j)
+      for (int i = 0; i < grid.nx(); ++i) {
+        if (!(frame.phi[grid.index(i, j, k)] < 0)) continue;
+        const std::array<int, 3> at{i, j, k};
+        for (int a = 0; a < 3; ++a) cut[a] = std::min({cut[a], at[a], grid.nodes[a] - 1 - at[a]});
+      }
+  const int layers = int(std::ceil(margin / grid.spacing));
+  Frame out{grid, frame.time, {}};
+  for (int a = 0; a < 3; ++a) {
+    cut[a] = std::max(0, cut[a] - layers);
+    out.grid.nodes[a] -= 2 * cut[a];
+  }
+  out.phi.reserve(out.grid.size());
+  for (int k = 0; k < out.grid.nz(); ++k)
+    for (int j = 0; j < out.grid.ny(); ++j) {
+      const auto row = frame.phi.begin() + grid.index(cut[0], cut[1] + j, cut[2] + k);
+      out.phi.insert(out.phi.end(), row, row + out.grid.nx());
+    }
+  return out;
+}
+
+Frame refine(const Frame& frame, int factor) {
+  Frame fine = frame;
+  std::size_t inner = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    fine.phi = refine_axis(fine.phi, frame.grid.nodes[axis], inner, factor);
+    fine.grid.nodes[axis] *= factor;
+    inner *= fine.grid.nodes[axis];
+  }
+  fine.grid.spacing /= factor;
+  return fine;
+}
+
+} // namespace lamella::render
