@@ -86,6 +86,11 @@ const Key& known_key(const std::string& place, std::string_view section, std::st
   return *key;
 }
 
+bool takes_text(const Key& key) {
+  return std::holds_alternative<Choice>(key.access) ||
+         std::holds_alternative<Member<std::string>>(key.access);
+}
+
 /// A key or a whole section before it is looked up.
 struct Entry {
   std::string_view section; ///< "" for what stands at the top
@@ -175,10 +180,15 @@ Given parse_override(const std::string& argument) {
 
   refuse_rubbish(text, "--set " + shortened(argument));
   toml::table table;
+  std::string trouble = "more than one value";
   try {
     table = toml::parse(fmt::format("value = {}", text), std::string_view("--set"));
-  } catch (const toml::parse_error&) {
+  } catch (const toml::parse_error& error) {
+    trouble = error.description();
   }
+  if (table.size() != 1 && !takes_text(key))
+    refuse_scene(fmt::format("{}{}: not a TOML value ({}); allowed: {}", place, key.label(),
+                             trouble, allowed_text(key)));
   if (table.size() != 1) table = toml::table{{"value", text}};
   const auto shared = std::make_shared<const toml::table>(std::move(table));
   return {&key, {shared, shared->get("value")}, place, true};

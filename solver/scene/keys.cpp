@@ -48,7 +48,7 @@ std::vector<Key> make_keys() {
 
       {"shape", "kind", choice<&Scene::shape, &Shape::kind>(
            {"sphere", "oblate", "prolate", "ellipsoid", "torus"}), "", any, {},
-       "start shape; its axis of symmetry is z before rotation"},
+       "start shape; before rotation its axis of symmetry is z"},
       {"shape", "radius", member<&Scene::shape, &Shape::radius>(), "length", length, {sphere},
        "radius"},
       {"shape", "semi_axis", member<&Scene::shape, &Shape::semi_axis>(), "length", length,
@@ -76,9 +76,9 @@ std::vector<Key> make_keys() {
        "preferred sum of the principal curvatures, which is -2 on the unit sphere"},
 
       {"constraints", "volume", choice<&Scene::constraints, &Constraints::volume>({"fixed"}), "",
-       any, {}, "enclosed volume"},
+       any, {}, "fixed: as it is at the start; other treatments are yet to come"},
       {"constraints", "area", choice<&Scene::constraints, &Constraints::area>({"fixed"}), "",
-       any, {}, "membrane area"},
+       any, {}, "fixed: as it is at the start; other treatments are yet to come"},
 
       {"run", "end_time", member<&Scene::end_time>(), "time",
        {.low = 0, .high = 1e30, .above_low = true}, {}, "when the run ends; it starts at 0"},

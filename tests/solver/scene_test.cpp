@@ -1,0 +1,203 @@
+#include "error.h"
+#include "scene/builtin.h"
+#include "scene/keys.h"
+#include "scene/nearest.h"
+#include "scene/scene_toml.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace lamella {
+namespace {
+
+using testing::HasSubstr;
+using Overrides = std::vector<std::string>;
+
+std::string content_of(const std::string& file) {
+  std::ifstream stream(file);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no SceneError";
+}
+
+Scene scene_of_kind(ShapeKind kind) {
+  Scene scene;
+  scene.shape.kind = kind;
+  return scene;
+}
+
+TEST(Scene, CanBeThreeLinesLong) {
+  const Scene scene =
+      parse_scene("[shape]\nkind = \"sphere\"\nradius = 0.6\n", "folder/my.vesicle.toml");
+  Scene expected = scene_of_kind(ShapeKind::sphere);
+  expected.name = "my.vesicle";
+  expected.shape.radius = 0.6;
+  EXPECT_EQ(scene, expected);
+}
+
+TEST(Scene, TakesEveryKeyOfTheFormat) {
+  const Scene scene = parse_scene(R"(
+name = "run-7"
+title = "A \"quoted\" title, µm"
+grid = { nodes = [64, 72, 96], half_width = 2 }
+[shape]
+kind = "ellipsoid"
+semi_axes = [0.9, 1, 1.1]
+center = [0.1, 0, -0.2]
+rotation_axis = [1, 2, 3]
+rotation_angle = -30.5
+[membrane]
+bending_modulus = 20
+spontaneous_curvature = -1.5
+[constraints]
+volume = "fixed"
+area = "fixed"
+[run]
+end_time = 2e-2
+[numerics]
+tolerance = 0.01
+max_time_step = 1e-4
+[output]
+frames = 5
+)",
+                                  "scene.toml");
+  Scene expected = scene_of_kind(ShapeKind::ellipsoid);
+  expected.name = "run-7";
+  expected.title = "A \"quoted\" title, µm";
+  expected.nodes = {64, 72, 96};
+  expected.half_width = 2;
+  expected.shape.semi_axes = {0.9, 1, 1.1};
+  expected.shape.center = {0.1, 0, -0.2};
+  expected.shape.rotation_axis = {1, 2, 3};
+  expected.shape.rotation_angle = -30.5;
+  expected.membrane = {20, -1.5};
+  expected.end_time = 2e-2;
+  expected.numerics = {0.01, 1e-4};
+  expected.output.frames = 5;
+  EXPECT_EQ(scene, expected);
+  EXPECT_DOUBLE_EQ(scene.grid().spacing, 4.0 / 64);
+  EXPECT_DOUBLE_EQ(scene.grid().length(2), 6);
+}
+
+TEST(Scene, IsTheSameAfterWritingAndReading) {
+  for (const char* kind : {"sphere", "oblate", "prolate", "ellipsoid", "torus"}) {
+    const Overrides changes{std::string("shape.kind=") + kind, "title=tab\tand \"quotes\" \\ here",
+                            "shape.center=[0.1, 0.01, 1e-17]", "run.end_time=0.1234567890123456",
+                            "grid.nodes=[64, 96, 72]",         "shape.rotation_angle=33.3"};
+    const Scene scene = builtin_scene("fig3_oblate", changes);
+    EXPECT_EQ(parse_scene(to_toml(scene), "other.toml"), scene) << to_toml(scene);
+  }
+}
+
+TEST(Scene, WritesWhatCountsAndOnlyThat) {
+  const std::string text = to_toml(scene_of_kind(ShapeKind::torus));
+  EXPECT_THAT(text, HasSubstr("ring_radius = 0.5"));
+  EXPECT_THAT(text, HasSubstr("radius of the tube (length)"));
+  EXPECT_THAT(text, Not(HasSubstr("semi_axis")));
+}
+
+TEST(Overrides, ReplaceTheFileAndTheLastOneWins) {
+  const Overrides changes{"grid.nodes=96", "grid.nodes = 128", "title=My own run", "name=x_1",
+                          "output.frames=3"};
+  const Scene scene = builtin_scene("fig3_prolate", changes);
+  EXPECT_EQ(scene.nodes, (std::array{128, 128, 128}));
+  EXPECT_EQ(scene.title, "My own run");
+  EXPECT_EQ(scene.name, "x_1");
+  EXPECT_EQ(scene.output.frames, 3);
+  EXPECT_EQ(scene.shape.reduced_volume, 0.6);
+}
+
+TEST(Overrides, TakeBareWordsAndTomlTextsAlike) {
+  const Overrides bare{"shape.kind=sphere"}, in_quotes{"shape.kind=\"sphere\""};
+  EXPECT_EQ(builtin_scene("fig3_oblate", bare), builtin_scene("fig3_oblate", in_quotes));
+}
+
+TEST(Overrides, OfTheKindDropTheKeysOfTheOldShape) {
+  const Overrides changes{"shape.kind=torus", "shape.tube_radius=0.15"};
+  const Scene scene = builtin_scene("fig3_oblate", changes);
+  EXPECT_EQ(scene.shape.kind, ShapeKind::torus);
+  EXPECT_EQ(scene.shape.tube_radius, 0.15);
+}
+
+TEST(Overrides, AreBlamedForTheRuleTheyBreak) {
+  const Overrides coarse{"grid.nodes=32"};
+  EXPECT_THAT(message_of([&] { builtin_scene("fig3_prolate", coarse); }),
+              testing::StartsWith("--set grid.nodes=32: [grid] nodes: the grid is too coarse"));
+}
+
+TEST(Builtin, ScenesAreValidAndCarryTheirTitles) {
+  ASSERT_GE(builtin_scenes().size(), 4u);
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    const Scene scene = builtin_scene(builtin.name);
+    EXPECT_EQ(scene.title, builtin.title);
+    EXPECT_EQ(scene.name, builtin.name);
+    const auto file =
+        std::string(LAMELLA_SOURCE_DIR "/data/scenes/") + std::string(builtin.name) + ".toml";
+    EXPECT_EQ(read_scene(file), scene);
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(builtin_scenes(), {}, &BuiltinScene::name));
+}
+
+TEST(Builtin, FigureScenesRunOnTheGridsOfTheConvergenceStudies) {
+  for (const int nodes : {24, 32, 40, 48, 64, 96, 128, 192}) {
+    const Overrides grid{"grid.nodes=" + std::to_string(nodes)};
+    EXPECT_NO_THROW(builtin_scene("fig3_oblate", grid)) << nodes;
+    if (nodes >= 40) {
+      EXPECT_NO_THROW(builtin_scene("fig3_prolate", grid)) << nodes;
+    }
+  }
+}
+
+TEST(Builtin, UnknownNameSuggestsTheNearest) {
+  EXPECT_THAT(message_of([] { builtin_scene("fig3_oblat"); }),
+              HasSubstr("did you mean \"fig3_oblate\"?"));
+  EXPECT_THAT(message_of([] { builtin_scene("zzzz"); }), Not(HasSubstr("did you mean")));
+}
+
+TEST(Keys, HaveValidDefaultsUniqueNamesAndHelp) {
+  Scene scene;
+  EXPECT_NO_THROW(validate(scene));
+  for (const Key& key : scene_keys()) {
+    EXPECT_FALSE(key.help.empty()) << key.path();
+    EXPECT_EQ(find_key(key.section, key.name), &key);
+  }
+}
+
+TEST(Keys, AreDocumented) {
+  const std::string docs = content_of(LAMELLA_SOURCE_DIR "/docs/scene-format.md");
+  EXPECT_THAT(docs, HasSubstr(describe_keys()))
+      << "docs/scene-format.md must hold this, word for word:\n"
+      << describe_keys();
+}
+
+TEST(Docs, ExampleIsAScene) {
+  const std::string docs = content_of(LAMELLA_SOURCE_DIR "/docs/scene-format.md");
+  const auto begin = docs.find("```toml\n") + 8;
+  const Scene scene =
+      parse_scene(docs.substr(begin, docs.find("```", begin) - begin), "example.toml");
+  EXPECT_FALSE(scene.title.empty());
+}
+
+TEST(Nearest, CountsEditsAndKnowsItsLimit) {
+  const std::vector<std::string_view> words{"semi_axis", "semi_axes", "center"};
+  EXPECT_EQ(nearest("semi_axs", words), "semi_axis");
+  EXPECT_EQ(nearest("SEMI_AXES", words), "semi_axes");
+  EXPECT_EQ(nearest("cetner", words), "center");
+  EXPECT_EQ(nearest("viscosity", words), std::nullopt);
+  EXPECT_EQ(nearest("", words), std::nullopt);
+}
+
+} // namespace
+} // namespace lamella
