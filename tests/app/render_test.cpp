@@ -1,0 +1,256 @@
+#include "render/render.h"
+
+#include "render/cross_section.h"
+#include "render/energy_plot.h"
+#include "render/figure.h"
+#include "render/labels.h"
+#include "render/membrane_view.h"
+#include "render/refine.h"
+#include "render/studio.h"
+#include "render/style.h"
+#include "render/surface.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <unistd.h>
+
+namespace lamella::render {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+template <class Phi>
+Frame frame_of(Phi&& phi, double time = 0, Grid grid = Grid::cube(48, 1)) {
+  Frame frame{grid, time, std::vector<double>(grid.size())};
+  for (std::size_t n = 0; n < grid.size(); ++n) frame.phi[n] = phi(grid.position(n));
+  return frame;
+}
+
+Frame sphere(double radius, Vec3 center = {}, double time = 0) {
+  return frame_of(
+      [=](const Vec3& p) {
+        return std::hypot(p[0] - center[0], p[1] - center[1], p[2] - center[2]) - radius;
+      },
+      time);
+}
+
+std::vector<Measures> falling_energy(int rows, double end) {
+  std::vector<Measures> history(rows);
+  for (int n = 0; n < rows; ++n) {
+    history[n].time = end * n / (rows - 1);
+    history[n].energy = 40 + 30 * std::exp(-5.0 * n / (rows - 1));
+  }
+  return history;
+}
+
+double brightness(const Color& c) { return (c.r + c.g + c.b) / 3.0; }
+
+int count_pixels(const Picture& picture, const Color& wanted) {
+  return int(std::count(picture.pixels.begin(), picture.pixels.end(), wanted));
+}
+
+template <class Action>
+std::string error_of(Action&& action) {
+  try {
+    action();
+  } catch (const RenderError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// All tests run as a batch job does: without a display.
+class Render : public testing::Test {
+protected:
+  void SetUp() override {
+    unsetenv("DISPLAY");
+    folder_ = fs::temp_directory_path() / ("lamella-render-" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+/// A picture of 400 x 400 pixels, 200 to the length of the box.
+Picture view_of(const Surface& surface, const std::string& backend) {
+  Studio studio(backend);
+  const Viewpoint viewpoint(30);
+  return studio.shoot(400, 400, {{membrane_view(surface, viewpoint, {0, 0}, 2), 0, 0, 400, 400}},
+                      Sheet(), 1);
+}
+
+class Backend : public Render, public testing::WithParamInterface<const char*> {};
+
+TEST_P(Backend, shows_a_sphere_as_a_lit_disc_of_the_right_size) {
+  const Picture picture = view_of(extract_surface(sphere(0.5)), GetParam());
+  const int covered = int(picture.pixels.size()) - count_pixels(picture, {255, 255, 255});
+  const double disc = std::numbers::pi * 100 * 100;
+  EXPECT_NEAR(covered, disc, 0.015 * disc); // the rim's half-covered pixels count as covered
+
+  EXPECT_GT(brightness(picture.at(170, 150)), 130) << "the side of the key light";
+  EXPECT_LT(brightness(picture.at(240, 270)), brightness(picture.at(170, 150)) - 20) << "the other";
+  const Color middle = picture.at(200, 200);
+  EXPECT_GT(middle.r, middle.g + 40) << "the membrane is red";
+}
+
+INSTANTIATE_TEST_SUITE_P(Offscreen, Backend, testing::Values("auto", "osmesa", "egl"));
+
+TEST_F(Render, says_which_backends_there_are) {
+  EXPECT_THAT(error_of([] { Studio studio("metal"); }),
+              AllOf(HasSubstr("\"metal\""), HasSubstr("auto, osmesa, egl or x")));
+}
+
+TEST_F(Render, says_that_a_display_is_missing) {
+  EXPECT_THAT(error_of([] { Studio studio("x"); }), HasSubstr("DISPLAY is not set"));
+}
+
+TEST_F(Render, cuts_a_sphere_in_a_circle) {
+  const auto lines = cross_section(extract_surface(sphere(0.5, {0.1, -0.2, 0.05})));
+  ASSERT_EQ(lines.size(), 1u);
+  for (const Vec2& p : lines[0]) EXPECT_NEAR(std::hypot(p[0] - 0.1, p[1] - 0.05), 0.5, 2e-4);
+}
+
+TEST_F(Render, cuts_a_torus_in_two_circles) {
+  const auto torus = [](const Vec3& p) {
+    return std::hypot(std::hypot(p[0], p[1]) - 0.5, p[2]) - 0.2;
+  };
+  const auto lines = cross_section(extract_surface(frame_of(torus)));
+  ASSERT_EQ(lines.size(), 2u);
+  for (const auto& line : lines)
+    for (const Vec2& p : line) EXPECT_NEAR(std::hypot(std::abs(p[0]) - 0.5, p[1]), 0.2, 1e-3);
+}
+
+TEST_F(Render, finds_a_section_where_the_middle_is_empty) {
+  const auto pair = [](const Vec3& p) {
+    return std::hypot(p[0], std::abs(p[1]) - 0.5, p[2]) - 0.3;
+  };
+  EXPECT_EQ(cross_section(extract_surface(frame_of(pair))).size(), 1u);
+}
+
+TEST_F(Render, says_that_there_is_no_membrane) {
+  const Frame empty = frame_of([](const Vec3&) { return 1.0; }, 2e-3);
+  EXPECT_THAT(error_of([&] { extract_surface(empty); }),
+              AllOf(HasSubstr("no membrane"), HasSubstr("2x10^-3")));
+}
+
+TEST_F(Render, refines_polynomials_of_degree_five_exactly) {
+  const auto polynomial = [](const Vec3& p) {
+    return std::pow(p[0], 5) - 2 * std::pow(p[1], 4) * p[2] + p[0] * p[1] * p[2] + 0.5;
+  };
+  const Frame fine = refine(frame_of(polynomial, 0, Grid::cube(12, 1)), 3);
+  const Grid& grid = fine.grid;
+  EXPECT_EQ(grid, Grid::cube(36, 1));
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    const Vec3 p = grid.position(n);
+    if (std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > 0.5) continue; // near the ends
+    EXPECT_NEAR(fine.phi[n], polynomial(p), 1e-12);
+  }
+}
+
+TEST_F(Render, crops_to_the_membrane_and_keeps_its_place) {
+  const Frame whole = sphere(0.3, {0.2, 0, 0}), part = crop(whole, 0.1);
+  EXPECT_THAT(part.grid.nodes, ElementsAre(30, 20, 20));
+  for (std::size_t n = 0; n < part.grid.size(); ++n) {
+    const Vec3 p = part.grid.position(n);
+    EXPECT_NEAR(part.phi[n], std::hypot(p[0] - 0.2, p[1], p[2]) - 0.3, 1e-12);
+  }
+}
+
+TEST_F(Render, draws_the_sections_below_the_views) {
+  Studio studio("auto");
+  const Picture figure =
+      draw_figure(studio, extract_surface(sphere(0.5)), extract_surface(sphere(0.4)), 1050);
+  EXPECT_EQ(figure.width, 1050);
+  int above = 0, below = 0; // pixels of the sections' line
+  for (int y = 0; y < figure.height; ++y)
+    for (int x = 0; x < figure.width; ++x)
+      if (figure.at(x, y) == style::membrane_line) ++(2 * y < figure.height ? above : below);
+  EXPECT_EQ(above, 0);
+  EXPECT_GT(below, 3000);
+}
+
+TEST_F(Render, plots_the_energy_from_end_to_end) {
+  Studio studio("auto");
+  const Picture plot = draw_energy(studio, falling_energy(200, 1.6e-3), 1, 700);
+  EXPECT_EQ(plot.height, 525);
+  std::vector<int> columns; // that the curve runs through
+  for (int x = 0; x < plot.width; ++x)
+    for (int y = 0; y < plot.height; ++y)
+      if (plot.at(x, y) == style::membrane_line) {
+        columns.push_back(x);
+        break;
+      }
+  ASSERT_FALSE(columns.empty());
+  EXPECT_LT(columns.front(), 140);
+  EXPECT_GT(columns.back(), 650);
+  EXPECT_EQ(int(columns.size()), columns.back() - columns.front() + 1) << "no gaps";
+}
+
+TEST_F(Render, plots_one_row_and_steady_energies_but_not_nothing) {
+  Studio studio("auto");
+  std::vector<Measures> steady = falling_energy(20, 1);
+  for (Measures& row : steady) row.energy = 8 * std::numbers::pi;
+  EXPECT_NO_THROW(draw_energy(studio, steady, 1, 700));
+  EXPECT_NO_THROW(draw_energy(studio, falling_energy(20, 1.0), 1e-20, 700));
+  EXPECT_NO_THROW(draw_energy(studio, {Measures{}}, 1, 700));
+  EXPECT_THAT(error_of([&] { draw_energy(studio, {}, 1, 700); }), HasSubstr("nothing to plot"));
+}
+
+TEST_F(Render, writes_all_pictures_of_a_run) {
+  RenderOptions options;
+  options.width = 600;
+  const auto files =
+      render_run(sphere(0.5), sphere(0.4, {}, 1e-3), falling_energy(50, 1e-3), folder_, options);
+  EXPECT_THAT(files, ElementsAre(folder_ / "figure.png", folder_ / "energy.png"));
+  for (const fs::path& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    std::string signature(8, ' ');
+    in.read(signature.data(), 8);
+    EXPECT_EQ(signature, "\x89PNG\r\n\x1a\n") << file;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "nothing else is left behind";
+}
+
+TEST_F(Render, says_that_a_folder_cannot_be_written_to) {
+  const Frame frame = sphere(0.5);
+  RenderOptions small;
+  small.width = 600;
+  const auto into = [&](const fs::path& where) {
+    return error_of([&] { render_run(frame, frame, falling_energy(5, 1), where, small); });
+  };
+  EXPECT_THAT(into(folder_ / "missing"), AllOf(HasSubstr("cannot write"), HasSubstr("figure.png"),
+                                               HasSubstr("No such file or directory")));
+  EXPECT_THAT(into("/dev/null"), HasSubstr("Not a directory"));
+}
+
+TEST(Labels, numbers_read_as_in_print) {
+  EXPECT_EQ(number(0), "0");
+  EXPECT_EQ(number(1.6e-3), "1.6×10⁻³");
+  EXPECT_EQ(number(1.5999999e-3), "1.6×10⁻³");
+  EXPECT_EQ(number(0.021), "0.021");
+  EXPECT_EQ(number(-1.25), "−1.25");
+  EXPECT_EQ(number(2e12), "2×10¹²");
+  EXPECT_EQ(plain(number(-1.6e-13)), "-1.6x10^-13");
+}
+
+TEST(Labels, ticks_are_round) {
+  const Ticks energies = linear_ticks(46.5, 80.1);
+  EXPECT_THAT(energies.labels, ElementsAre("50", "60", "70", "80"));
+  const Ticks times = linear_ticks(0, 1.6e-3);
+  EXPECT_THAT(times.labels, ElementsAre("0", "0.5", "1.0", "1.5"));
+  EXPECT_EQ(times.exponent, -3);
+  EXPECT_THAT(linear_ticks(-2, 1).labels, ElementsAre("−2", "−1", "0", "1"));
+}
+
+} // namespace
+} // namespace lamella::render
