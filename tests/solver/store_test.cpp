@@ -1,0 +1,404 @@
+#include "error.h"
+#include "store/atomic_file.h"
+#include "store/frame.h"
+#include "store/history.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace lamella {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void put(const fs::path& file, std::string_view content) {
+  std::ofstream(file, std::ios::binary) << content;
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const StoreError& error) {
+    return error.what();
+  }
+  return "no StoreError";
+}
+
+/// Lets files grow to a size and no further, as a full disk does.
+class FileSizeLimit {
+public:
+  explicit FileSizeLimit(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, signal_);
+  }
+
+private:
+  rlimit before_{};
+  void (*signal_)(int);
+};
+
+class Store : public testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("lamella store " + std::to_string(::getpid()));
+    fs::create_directory(folder_);
+  }
+  void TearDown() override {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+
+  std::size_t files() const {
+    return std::size_t(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}));
+  }
+
+  fs::path folder_;
+};
+
+class FrameStore : public Store {
+protected:
+  static Frame sample() {
+    Frame frame{{{16, 12, 10}, 0.1 / 3}, 1.25e-4, {}};
+    for (std::size_t n = 0; n < frame.grid.size(); ++n) {
+      const auto [x, y, z] = frame.grid.position(n);
+      frame.phi.push_back(std::sin(7 * x) + y * y - std::exp(z));
+    }
+    frame.phi[3] = -0.0;
+    frame.phi[4] = std::numeric_limits<double>::denorm_min();
+    return frame;
+  }
+
+  fs::path file() const { return folder_ / "frame_0001.hdf"; }
+
+  static std::string checksum_line(std::string_view image) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const unsigned char c : image) hash = (hash ^ c) * 0x100000001b3;
+    char line[64];
+    std::snprintf(line, sizeof line, "lamella frame, FNV-1a %016llx\n",
+                  static_cast<unsigned long long>(hash));
+    return line;
+  }
+
+  /// A frame in which a run of values is replaced by another, and which has the right checksum all
+  /// the same.
+  template <class T>
+  std::string forged(const std::vector<T>& from, const std::vector<T>& to) const {
+    write_frame(file(), sample());
+    std::string bytes = content_of(file());
+    bytes.resize(bytes.size() - checksum_line("").size());
+    const std::string_view pattern(reinterpret_cast<const char*>(from.data()),
+                                   from.size() * sizeof(T));
+    const auto at = bytes.find(pattern);
+    EXPECT_NE(at, bytes.npos);
+    bytes.replace(at, pattern.size(), reinterpret_cast<const char*>(to.data()),
+                  to.size() * sizeof(T));
+    return bytes + checksum_line(bytes);
+  }
+
+  std::string message_for(std::string_view content) const {
+    put(file(), content);
+    return message_of([&] { read_frame(file()); });
+  }
+};
+
+TEST_F(FrameStore, ReadsWhatItWroteToTheLastBit) {
+  const Frame frame = sample();
+  write_frame(file(), frame);
+  const Frame back = read_frame(file());
+  EXPECT_EQ(back.grid, frame.grid);
+  EXPECT_EQ(back.time, frame.time);
+  ASSERT_EQ(back.phi.size(), frame.phi.size());
+  EXPECT_EQ(std::memcmp(back.phi.data(), frame.phi.data(), frame.phi.size() * sizeof(double)), 0);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FrameStore, EqualFramesMakeEqualFiles) {
+  write_frame(file(), sample());
+  write_frame(folder_ / "again.hdf", sample());
+  EXPECT_EQ(content_of(file()), content_of(folder_ / "again.hdf"));
+}
+
+TEST_F(FrameStore, ReplacesAnOlderFrame) {
+  put(file(), "older");
+  write_frame(file(), sample());
+  EXPECT_EQ(read_frame(file()).time, sample().time);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FrameStore, RefusesFramesThatNoReaderWouldTake) {
+  put(file(), "older");
+  const auto message = [&](auto change) {
+    Frame frame = sample();
+    change(frame);
+    return message_of([&] { write_frame(file(), frame); });
+  };
+  EXPECT_THAT(message([](Frame& f) { f.phi[100] = nan; }),
+              HasSubstr("phi has values that are not finite"));
+  EXPECT_THAT(message([](Frame& f) { f.phi.back() = infinity; }), HasSubstr("not finite"));
+  EXPECT_THAT(message([](Frame& f) { f.time = nan; }), HasSubstr("the time is nan"));
+  EXPECT_THAT(message([](Frame& f) { f.phi.pop_back(); }),
+              HasSubstr("phi has 1919 values, the grid 1920"));
+  EXPECT_THAT(message([](Frame& f) { f.grid.spacing = 0; }), HasSubstr("spacing"));
+  EXPECT_THAT(message([](Frame& f) { f.grid.nodes[1] = -12; }), HasSubstr("16 x -12 x 10 nodes"));
+  EXPECT_EQ(content_of(file()), "older");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FrameStore, SaysWhyTheSystemRefuses) {
+  const fs::path lost = folder_ / "no folder" / "x.hdf", below_a_file = folder_ / "file" / "x.hdf";
+  put(folder_ / "file", "");
+  EXPECT_THAT(message_of([&] { write_frame(lost, sample()); }),
+              HasSubstr("No such file or directory"));
+  EXPECT_THAT(message_of([&] { write_frame(below_a_file, sample()); }),
+              HasSubstr("Not a directory"));
+  EXPECT_THAT(message_of([&] { write_frame(folder_, sample()); }), HasSubstr("not a regular file"));
+  EXPECT_THAT(message_of([&] { write_frame("/dev/full", sample()); }),
+              HasSubstr("not a regular file"));
+  EXPECT_THAT(message_of([&] { read_frame(lost); }), HasSubstr("No such file or directory"));
+  EXPECT_NE(message_of([&] { read_frame(folder_); }), "no StoreError");
+}
+
+TEST_F(FrameStore, RespectsAFolderThatIsReadOnly) {
+  if (::geteuid() == 0) GTEST_SKIP() << "nothing is read-only for root";
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THAT(message_of([&] { write_frame(file(), sample()); }), HasSubstr("Permission denied"));
+}
+
+TEST_F(FrameStore, KeepsTheOlderFrameWhenTheDiskIsFull) {
+  put(file(), "older");
+  std::string message;
+  {
+    const FileSizeLimit limit(4096);
+    message = message_of([&] { write_frame(file(), sample()); });
+  }
+  EXPECT_THAT(message, HasSubstr("cannot be written: File too large"));
+  EXPECT_EQ(content_of(file()), "older");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FrameStore, RefusesEveryTruncatedFile) {
+  write_frame(file(), sample());
+  const std::string whole = content_of(file());
+  for (std::size_t size = 0; size < whole.size(); size += 97)
+    ASSERT_THAT(message_for(whole.substr(0, size)),
+                StartsWith(file().string() + ": cannot be read as a frame"))
+        << size;
+  EXPECT_THAT(message_for(whole.substr(0, whole.size() - 1)), HasSubstr("cut off"));
+  EXPECT_THAT(message_for(whole + "\n"), HasSubstr("cut off"));
+}
+
+TEST_F(FrameStore, RefusesEveryFlippedBit) {
+  write_frame(file(), sample());
+  const std::string whole = content_of(file());
+  for (std::size_t n = 0; n < whole.size(); n += 61) {
+    std::string damaged = whole;
+    damaged[n] = static_cast<char>(damaged[n] ^ (1 << (n % 8)));
+    ASSERT_THAT(message_for(damaged), HasSubstr("cannot be read as a frame")) << n;
+  }
+}
+
+TEST_F(FrameStore, RefusesForeignFiles) {
+  EXPECT_THAT(message_for(""), HasSubstr("size is out of range"));
+  EXPECT_THAT(message_for(std::string(5000, 'x')), HasSubstr("it is not one"));
+  const std::string signed_text(5000, 'x');
+  EXPECT_THAT(message_for(signed_text + checksum_line(signed_text)), HasSubstr("not an HDF5 file"));
+}
+
+TEST_F(FrameStore, RefusesForgedFilesBeforeAllocating) {
+  using Integers = std::vector<std::int64_t>;
+  const Integers extent{0, 15, 0, 11, 0, 9};
+  const auto with_extent = [&](const Integers& other) {
+    return message_for(forged(extent, other));
+  };
+  EXPECT_EQ(with_extent(extent), "no StoreError");
+  EXPECT_THAT(with_extent({0, 15, 0, 11, 0, 1 << 30}), HasSubstr("WholeExtent is out of range"));
+  EXPECT_THAT(with_extent({0, std::int64_t(1) << 40, 0, 11, 0, 9}), HasSubstr("WholeExtent"));
+  EXPECT_THAT(with_extent({0, -2, 0, 11, 0, 9}), HasSubstr("WholeExtent is out of range"));
+  EXPECT_THAT(with_extent({1, 16, 0, 11, 0, 9}), HasSubstr("WholeExtent is out of range"));
+  EXPECT_THAT(with_extent({0, 1023, 0, 1023, 0, 1023}), HasSubstr("WholeExtent is out of range"));
+  EXPECT_THAT(with_extent({0, 31, 0, 11, 0, 9}), HasSubstr("not centred"));
+
+  using Numbers = std::vector<double>;
+  const double h = sample().grid.spacing;
+  const auto with_spacing = [&](const Numbers& other) {
+    return message_for(forged(Numbers{h, h, h}, other));
+  };
+  EXPECT_THAT(with_spacing({h, h, 2 * h}), HasSubstr("the same along all axes"));
+  EXPECT_THAT(with_spacing({nan, nan, nan}), HasSubstr("must be positive"));
+  EXPECT_THAT(with_spacing({-h, -h, -h}), HasSubstr("must be positive"));
+  EXPECT_THAT(message_for(forged(Numbers{sample().time}, Numbers{nan})), HasSubstr("not finite"));
+
+  // The size that the data set itself states, along z, y, x and once more as the largest allowed.
+  const Integers size{10, 12, 16, 10, 12, 16}, huge{1000, 1000, 1000, 1000, 1000, 1000};
+  EXPECT_THAT(message_for(forged(size, huge)), HasSubstr("does not agree with WholeExtent"));
+}
+
+class HistoryStore : public Store {
+protected:
+  static Measures row(double time) {
+    Measures m;
+    double value = time;
+    for (double* x : {&m.time, &m.dt, &m.energy, &m.bending_energy, &m.int_KM2, &m.P, &m.sigma,
+                      &m.sigma_DA, &m.area, &m.volume, &m.reduced_volume, &m.area_difference,
+                      &m.area_drift, &m.volume_drift, &m.max_speed})
+      *x = value, value = -1.01 * value - 1e-7;
+    m.components = 2;
+    m.genus = -3;
+    return m;
+  }
+
+  static std::string line_of(int number, const std::string& text) {
+    std::stringstream stream(text);
+    std::string line;
+    while (number-- > 0) std::getline(stream, line);
+    return line;
+  }
+
+  fs::path file() const { return folder_ / "history.csv"; }
+};
+
+const std::string history_header = "t,dt,energy,bending_energy,int_KM2,P,sigma,sigma_DA,A,V,v,Da,"
+                                   "dA_rel,dV_rel,max_speed,components,genus";
+
+TEST_F(HistoryStore, KeepsRowsToTwelveDigits) {
+  HistoryWriter writer(file());
+  for (const double t : {0.0, 1.25e-4, 123456.789}) writer.add(row(t));
+  const auto rows = read_history(file()); // the writer is still open: every row is there at once
+  ASSERT_EQ(rows.size(), 3u);
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Measures expected = row(rows[n].time);
+    EXPECT_NEAR(rows[n].energy, expected.energy, 1e-11 * std::abs(expected.energy));
+    EXPECT_NEAR(rows[n].max_speed, expected.max_speed, 1e-11 * std::abs(expected.max_speed));
+    EXPECT_EQ(rows[n].components, 2);
+    EXPECT_EQ(rows[n].genus, -3);
+  }
+  EXPECT_EQ(rows[2].time, 123456.789);
+}
+
+TEST_F(HistoryStore, NamesItsColumnsInTheOrderOfMeasures) {
+  Measures m{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
+  HistoryWriter(file()).add(m);
+  EXPECT_EQ(content_of(file()), history_header + "\n1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17\n");
+}
+
+TEST_F(HistoryStore, RefusesRowsThatAreNotFinite) {
+  HistoryWriter writer(file());
+  Measures bad = row(2);
+  bad.sigma = nan;
+  EXPECT_THAT(message_of([&] { writer.add(bad); }),
+              HasSubstr("row not written: sigma is nan at t = 2"));
+  writer.add(row(3));
+  EXPECT_EQ(read_history(file()).size(), 1u);
+}
+
+TEST_F(HistoryStore, SaysWhyTheSystemRefuses) {
+  EXPECT_THAT(message_of([] { HistoryWriter("/dev/full"); }),
+              HasSubstr("/dev/full: cannot be written: No space left on device"));
+  EXPECT_THAT(message_of([] { HistoryWriter("/no/folder/history.csv"); }),
+              HasSubstr("No such file"));
+  EXPECT_THAT(message_of([] { read_history("/no/folder/history.csv"); }),
+              HasSubstr("No such file"));
+  EXPECT_NE(message_of([&] { read_history(folder_); }), "no StoreError");
+}
+
+TEST_F(HistoryStore, EndsWithAWholeRowWhenTheDiskIsFull) {
+  HistoryWriter writer(file());
+  int rows = 0;
+  std::string message = "no StoreError";
+  {
+    const FileSizeLimit limit(1000);
+    for (; message == "no StoreError" && rows < 100; ++rows)
+      message = message_of([&] { writer.add(row(rows)); });
+  }
+  EXPECT_THAT(message, HasSubstr("File too large"));
+  EXPECT_EQ(read_history(file()).size(), std::size_t(rows - 1));
+  writer.add(row(100));
+  EXPECT_EQ(read_history(file()).size(), std::size_t(rows));
+}
+
+TEST_F(HistoryStore, ReadsNothingButHistories) {
+  const std::string good = "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17";
+  const auto message = [&](const std::string& text) {
+    put(file(), text);
+    return message_of([&] { read_history(file()); });
+  };
+  const std::string start = history_header + "\n" + good + "\n";
+  EXPECT_EQ(message(start), "no StoreError");
+  EXPECT_THAT(message(""), HasSubstr("it is empty"));
+  EXPECT_THAT(message("t,dt\n"), HasSubstr("csv:1: not a history: the first line"));
+  EXPECT_THAT(message(history_header), HasSubstr("csv:1:"));
+  EXPECT_THAT(message(history_header + ",x\n"), HasSubstr("csv:1:"));
+  for (const std::string& bad :
+       {good + ",18\n", good + ",\n", good, std::string("1,2,3\n"), std::string("\n"),
+        "x" + good + "\n", " " + good + "\n", good + " \n",
+        std::string("nan,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17\n"),
+        std::string("1,inf,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17\n"),
+        std::string("1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16.5,17\n"),
+        std::string("1,,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17\n"),
+        std::string("1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,99999999999\n")})
+    EXPECT_THAT(message(start + bad), HasSubstr("csv:3: not a history: expected 17 finite numbers"))
+        << bad;
+}
+
+TEST_F(Store, SeriesListsFramesForParaView) {
+  const fs::path file = folder_ / "frames.hdf.series";
+  const std::vector<SeriesEntry> entries{{"frame_0000.hdf", 0}, {"fr\"ame.hdf", 1.25e-4}};
+  write_series(file, entries);
+  EXPECT_EQ(content_of(file), R"({
+  "file-series-version": "1.0",
+  "files": [
+    {"name": "frame_0000.hdf", "time": 0},
+    {"name": "fr\"ame.hdf", "time": 0.000125}
+  ]
+}
+)");
+  const std::vector<SeriesEntry> bad{{"frame_0000.hdf", nan}};
+  EXPECT_THAT(message_of([&] { write_series(file, bad); }),
+              HasSubstr("the time of frame_0000.hdf is nan"));
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Store, TextAppearsWholeOrNotAtAll) {
+  const fs::path file = folder_ / "summary.json";
+  write_text_atomically(file, "first");
+  {
+    const FileSizeLimit limit(100);
+    EXPECT_THROW(write_text_atomically(file, std::string(1000, 'x')), StoreError);
+  }
+  EXPECT_EQ(content_of(file), "first");
+  write_text_atomically(file, "");
+  EXPECT_EQ(content_of(file), "");
+  EXPECT_EQ(files(), 1u);
+}
+
+} // namespace
+} // namespace lamella
