@@ -1,15 +1,36 @@
 #include "parallel.h"
 
-#include <omp.h>
+#include <memory>
+#include <mutex>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace lamella {
 
 namespace {
-int requested = 0;
+
+// Threading Building Blocks and not OpenMP: a loop must not wait for a thread that has nothing left to do but
+// has not been scheduled yet. With one of two cores busy an OpenMP team was several times slower than
+// one thread (see docs/numerics.md).
+std::unique_ptr<tbb::task_arena> arena = std::make_unique<tbb::task_arena>();
+
+} // namespace
+
+void set_thread_count(int threads) {
+  arena = std::make_unique<tbb::task_arena>(threads > 0 ? threads : int(tbb::task_arena::automatic));
 }
 
-void set_thread_count(int threads) { requested = threads; }
+int thread_count() { return arena->max_concurrency(); }
 
-int thread_count() { return requested > 0 ? requested : omp_get_max_threads(); }
+void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f) {
+  const std::size_t chunks = (n + grain - 1) / grain;
+  auto run = [&](std::size_t chunk) { f(chunk * grain, std::min(n, (chunk + 1) * grain)); };
+  if (chunks <= 1 || thread_count() == 1) {
+    for (std::size_t chunk = 0; chunk < chunks; chunk++) run(chunk);
+    return;
+  }
+  arena->execute([&] { tbb::parallel_for(std::size_t(0), chunks, run); });
+}
 
 } // namespace lamella

@@ -1,21 +1,18 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace lamella {
 
-/// Threads that parallel loops use; 0 or less: as many as the machine has (OMP_NUM_THREADS respected).
+/// Threads that parallel loops use; 0 or less: as many as the machine has.
 void set_thread_count(int threads);
 int thread_count();
 
 /// f(begin, end) for consecutive chunks of [0, n), in any order and on any thread. The chunks depend on
 /// n and grain alone, so whatever is computed a chunk does not depend on the number of threads.
-template <class F> void parallel_for(std::size_t n, std::size_t grain, F&& f) {
-  const std::ptrdiff_t chunks = std::ptrdiff_t((n + grain - 1) / grain);
-#pragma omp parallel for schedule(dynamic) num_threads(thread_count()) if (chunks > 1)
-  for (std::ptrdiff_t c = 0; c < chunks; c++) f(c * grain, std::min(n, (c + 1) * grain));
-}
+void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f);
 
 /// Sum of f(begin, end) over the chunks of [0, n), added in their order: the same for any number of threads.
 template <class Sum, class F> Sum parallel_sum(std::size_t n, std::size_t grain, F&& f) {

@@ -7,6 +7,13 @@ namespace lamella {
 struct Multipliers {
   double P = 0;     ///< of 1: pressure
   double sigma = 0; ///< of K_M: tension
+
+  Multipliers& operator+=(const Multipliers& other) {
+    P += other.P;
+    sigma += other.sigma;
+    return *this;
+  }
+  friend Multipliers operator*(double a, Multipliers m) { return {a * m.P, a * m.sigma}; }
 };
 
 /// P and sigma for which the velocity -F + sigma K_M + P changes neither volume nor area (Eq. 80 ff.):

@@ -8,6 +8,7 @@ namespace lamella {
 
 namespace {
 constexpr double blend = 1;               // z0: modes with z above it are mostly Euler
+constexpr double least_history = 0.5;      // of SBDF2, for stiff modes too: halves their lag; stable to 1.5 times the symbol
 constexpr double least_spline_symbol = 0.25; // along an axis; nodal rates become coefficient rates no further
 } // namespace
 
@@ -43,7 +44,8 @@ void SemiImplicit::advance(LevelSet& phi, const Extension& rates, double dt, con
                         ratio_,
                         symbol.stiffness,
                         symbol.tension,
-                        blend};
+                        blend,
+                        least_history};
     kernels().spectral_row(r, reinterpret_cast<double*>(row), reinterpret_cast<double*>(&rate_[at]),
                            reinterpret_cast<double*>(&spectral_increment_[at]));
   };

@@ -31,6 +31,7 @@ public:
   std::span<const double> before() const { return before_; }
   /// Last step over the one before; 0 where there is no history.
   double step_ratio() const { return ratio_; }
+  double last_dt() const { return last_dt_; }
 
   /// phi was multiplied by `factor`.
   void rescale(double factor);

@@ -14,7 +14,8 @@ namespace lamella {
 
 namespace {
 constexpr double band_half_width = 4.2;  // spacings: the spline's reach and a little more
-constexpr double worst_drift = 1e-6;     // relative error of volume and area that a measured state may have
+constexpr double worst_drift = 2e-6;     // relative error of volume and area that a recorded state may have
+constexpr int most_projections = 4;
 constexpr double force_limit = 0.3;      // kappa / h^3: more is noise of an unresolved tip
 constexpr double gauge_limit = 1.6;      // |grad phi| over its mean
 constexpr int steps_between_renormalisations = 5;
@@ -47,18 +48,28 @@ Frame Simulation::frame() const {
 
 // ------------------------------------------------------------------------------------------------ measuring
 
-/// Brings the membrane onto its constraints and finds everything that is known of it.
+/// Brings the membrane onto its constraints and finds everything that is known of it. Second derivatives
+/// suffice to measure the drift of volume and area; what is recorded is measured after its correction.
 void Simulation::measure() {
   locate();
-  surface_.curvatures(phi_, band_);
-  integrals_ = integrate(surface_, bending_, {});
+  if (area_ > 0) {
+    surface_.curvatures(phi_, band_);
+    integrals_ = integrate(surface_, bending_, {});
+    feedback_ += 1 / stepper_.last_dt() * project();
+  }
+  measure_forces();
   if (area_ == 0) {
     area_ = integrals_.area();
     volume_ = integrals_.volume;
-  } else {
-    project();
   }
-  measure_forces();
+  for (int pass = 0; pass < most_projections && drift() > worst_drift; pass++) {
+    project();
+    measure_forces();
+  }
+}
+
+double Simulation::drift() const {
+  return std::max(std::abs(integrals_.volume / volume_ - 1), std::abs(integrals_.area() / area_ - 1));
 }
 
 void Simulation::locate() {
@@ -68,34 +79,25 @@ void Simulation::locate() {
   if (surface_.size() == 0) throw RunError("the membrane has disappeared");
 }
 
-/// Displaces the membrane by a + b K_M so that volume and area are those of the start.
-void Simulation::project() {
-  const double h = grid().spacing;
-  for (int pass = 0; pass < 4; pass++) {
-    if (pass) {
-      surface_.curvatures(phi_, band_);
-      integrals_ = integrate(surface_, bending_, {});
-    }
-    const double volume_change = volume_ - integrals_.volume, area_change = area_ - integrals_.area();
-    if (std::max(std::abs(volume_change / volume_), std::abs(area_change / area_)) < worst_drift) return;
-    const Multipliers u = displacement_for(integrals_, volume_change, area_change);
-    auto displacement = [&](std::size_t i) { return std::clamp(u.P + u.sigma * surface_.KM()[i], -0.3 * h, 0.3 * h); };
-    work_.resize(band_.size());
-    for (std::size_t i = 0; i < surface_.size(); i++) work_[surface_.entry()[i]] = displacement(i) * surface_.grad()[i];
-    extension_.complete(band_, surface_.sampled(), 0, work_);
-    std::span<double> c = phi_.coefficients();
-    for (std::size_t s = 0; s < band_.size(); s++)
-      c[band_.node()[s]] -= band_.taper(band_.distance()[s]) * work_[s];
-    const Points p = band_.points();
-    for (std::size_t i = 0; i < surface_.size(); i++) {
-      const int s = surface_.entry()[i];
-      const Vec3 n = surface_.normal(i);
-      const double d = displacement(i);
-      p.x[s] += d * n[0];
-      p.y[s] += d * n[1];
-      p.z[s] += d * n[2];
-    }
+/// Displaces the membrane by a + b K_M so that volume and area are those of the start. Returns a and b.
+Multipliers Simulation::project() {
+  const double longest = 0.3 * grid().spacing;
+  const Multipliers u = displacement_for(integrals_, volume_ - integrals_.volume, area_ - integrals_.area());
+  const Points p = band_.points();
+  work_.resize(band_.size());
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const int s = surface_.entry()[i];
+    const double d = std::clamp(u.P + u.sigma * surface_.KM()[i], -longest, longest);
+    const Vec3 n = surface_.normal(i);
+    work_[s] = d * surface_.grad()[i];
+    p.x[s] += d * n[0];
+    p.y[s] += d * n[1];
+    p.z[s] += d * n[2];
   }
+  extension_.complete(band_, surface_.sampled(), 0, work_);
+  std::span<double> c = phi_.coefficients();
+  for (std::size_t s = 0; s < band_.size(); s++) c[band_.node()[s]] -= band_.taper(band_.distance()[s]) * work_[s];
+  return u;
 }
 
 void Simulation::measure_forces() {
@@ -161,11 +163,13 @@ double Simulation::choose_dt(double latest) const {
 
 double Simulation::next_dt() const { return choose_dt(1e300); }
 
-/// d phi / dt = -v |grad phi| at the membrane, carried into the box.
+/// d phi / dt = -v |grad phi| at the membrane, carried into the box. What past steps had to be corrected by is
+/// added to the multipliers: the implicit part of a step bends volume and area alike in step after step.
 void Simulation::extend_rates() {
+  const double P = multipliers_.P + feedback_.P, sigma = multipliers_.sigma + feedback_.sigma;
   work_.resize(band_.size());
   for (std::size_t i = 0; i < surface_.size(); i++) {
-    const double v = -variation_[i] + multipliers_.sigma * surface_.KM()[i] + multipliers_.P;
+    const double v = -variation_[i] + sigma * surface_.KM()[i] + P;
     work_[surface_.entry()[i]] = -v * surface_.grad()[i];
   }
   extension_.complete(band_, surface_.sampled(), 0, work_);

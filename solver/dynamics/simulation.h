@@ -34,7 +34,8 @@ public:
 private:
   void measure();
   void locate();
-  void project();
+  Multipliers project();
+  double drift() const;
   void measure_forces();
   void check(const Measures& m) const;
   void renormalise_if_needed();
@@ -54,6 +55,7 @@ private:
   SurfaceGeometry surface_;
   SurfaceIntegrals integrals_;
   Multipliers multipliers_;
+  Multipliers feedback_; // velocity a + b K_M that keeps volume and area through a step
   std::vector<double> variation_;  // F at the samples
   std::vector<double> grad_, work_; // a number a band entry
   bool broken_ = false; // the last step failed: the state is the one before it

@@ -39,11 +39,23 @@ template <int Order> struct Contracted {
 };
 
 /// Planes whose partial sums fit the registers together.
-template <int Order> constexpr int planes_at_once = (width == 8 ? 2 : 1) * (Order > 2 ? 2 : 4);
+constexpr int planes_at_once = width == 8 ? 4 : 2;
+
+/// Adds row j of several planes, weighted along y.
+template <int Order>
+LAMELLA_INLINE void add_rows(const double* data, const Stencil& st, const double (*wy)[8], int j,
+                             Part (*sum)[Order + 1]) {
+#pragma GCC unroll 4
+  for (int k = 0; k < planes_at_once; k++) {
+    const Part row = load_part(data + k * st.stride_z + j * st.stride_y);
+#pragma GCC unroll 5
+    for (int d = 0; d <= Order; d++) sum[k][d] += row * wy[d][j];
+  }
+}
 
 template <int Order> LAMELLA_INLINE void contract(const SplineView& s, const double* p, Contracted<Order>& out) {
   constexpr const auto& index = derivative_index<Order>;
-  constexpr int planes = planes_at_once<Order>;
+  constexpr int planes = planes_at_once;
   const Cell cell = cell_of(s, p);
   alignas(64) double buffer[512];
   const Stencil st = stencil_of<8>(s, cell, buffer);
@@ -51,26 +63,26 @@ template <int Order> LAMELLA_INLINE void contract(const SplineView& s, const dou
   spline_weights<Order>(cell.t[0], s.inv_spacing, out.wx);
   spline_weights<Order>(cell.t[1], s.inv_spacing, wy);
   spline_weights<Order>(cell.t[2], s.inv_spacing, wz);
+  // From here on weights are broadcast from memory; the compiler would shuffle and spill registers instead.
+  asm volatile("" : : "r"(wy), "r"(wz) : "memory");
 #pragma GCC unroll 1
   for (int part = 0; part < parts; part++) {
     Part sum[8][Order + 1];
-#pragma GCC unroll 8
+#pragma GCC unroll 4
     for (int k0 = 0; k0 < 8; k0 += planes) {
       const double* data = st.data + part * width + k0 * st.stride_z;
-      Part acc[planes][Order + 1] = {};
+      Part group[planes][Order + 1] = {};
+      if constexpr (Order > 2) { // more sums at once than leave registers for unrolling fully
+#pragma GCC unroll 4
+        for (int j = 0; j < 8; j++) add_rows<Order>(data, st, wy, j, group);
+      } else {
 #pragma GCC unroll 8
-      for (int j = 0; j < 8; j++) {
-#pragma GCC unroll 8
-        for (int k = 0; k < planes; k++) {
-          const Part row = load_part(data + k * st.stride_z + j * st.stride_y);
-#pragma GCC unroll 5
-          for (int d = 0; d <= Order; d++) acc[k][d] += row * wy[d][j];
-        }
+        for (int j = 0; j < 8; j++) add_rows<Order>(data, st, wy, j, group);
       }
-#pragma GCC unroll 8
+#pragma GCC unroll 4
       for (int k = 0; k < planes; k++)
 #pragma GCC unroll 5
-        for (int d = 0; d <= Order; d++) sum[k0 + k][d] = acc[k][d];
+        for (int d = 0; d <= Order; d++) sum[k0 + k][d] = group[k][d];
     }
 #pragma GCC unroll 15
     for (int q = 0; q < index.pairs; q++) {

@@ -42,6 +42,7 @@ struct SpectralRow {
   double stiffness;         ///< implicit symbol: dt (stiffness k^4 + tension k^2)
   double tension;
   double blend;             ///< z0: modes with implicit symbol far above it take Euler
+  double least_history;     ///< share of SBDF2 that even the stiffest modes keep
 };
 
 struct Kernels {

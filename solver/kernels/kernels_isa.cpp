@@ -275,7 +275,7 @@ void spectral_row(const SpectralRow& row, double* __restrict rate, double* __res
   const double w = row.ratio, gain = (1 + 2 * w) / (1 + w) - 1, memory = w * w / (1 + w), inv_z0 = 1 / row.blend;
   for (int e = 0; e < 2 * row.modes; e++) {
     const double k2 = row.kx2[e] + row.k2, z = row.dt * k2 * (row.stiffness * k2 + row.tension);
-    const double theta = 1 / (1 + z * inv_z0);
+    const double theta = row.least_history + (1 - row.least_history) / (1 + z * inv_z0);
     const double r = rate[e] * row.scale * row.inv_symbol[e];
     const double d = (row.dt * (r + theta * w * (r - rate_old[e])) + theta * (memory + w * z) * increment_old[e]) /
                      (1 + theta * gain + z);

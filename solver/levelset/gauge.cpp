@@ -8,7 +8,7 @@
 namespace lamella {
 
 namespace {
-constexpr double filter_strength = 0.5;
+constexpr double filter_strength = 1; // 2 is the limit of stability
 constexpr std::size_t chunk = 512;
 
 /// sum_d delta_d^4 c at a node, periodic.

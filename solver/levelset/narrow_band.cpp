@@ -69,12 +69,14 @@ void NarrowBand::refresh(const LevelSet& phi) {
   });
 }
 
-/// Nodes whose neighbour knows a nearer point (another sheet has come closer) start again from it.
+/// Nodes whose neighbour knows a point that is nearer by a tenth of a spacing (another sheet has come closer)
+/// start again from it.
 void NarrowBand::repair(const LevelSet& phi) {
   std::vector<std::vector<Entry>> found((size() + chunk - 1) / chunk);
   parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++) {
-      double nearest = distance_[s] * distance_[s] * (1 - 1e-6) - 1e-6 * grid_.spacing * grid_.spacing;
+      const double enough = std::max(0.0, distance_[s] - 0.1 * grid_.spacing);
+      double nearest = enough * enough;
       int from = unset;
       for_each_neighbour(grid_, node_[s], [&](int m) {
         const int t = slot_[m];
@@ -167,7 +169,7 @@ std::vector<NarrowBand::Entry> NarrowBand::neighbours(std::span<const Entry> fro
       for_each_neighbour(grid_, e.node, [&](int m) {
         if (slot_[m] != unset) return;
         const double d = std::sqrt(distance2(m, e.p));
-        if (d <= reach + grid_.spacing) found[begin / chunk].push_back({m, {e.p[0], e.p[1], e.p[2]}, d});
+        if (d <= reach) found[begin / chunk].push_back({m, {e.p[0], e.p[1], e.p[2]}, d});
       });
     }
   });
