@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lamella {
+
+struct RunOptions {
+  std::string scene;               ///< a file, or the name of a built-in scene
+  std::filesystem::path folder;    ///< empty: the scene's name in the current folder
+  std::vector<std::string> set;    ///< section.key=value
+  std::string backend = "auto";    ///< of the pictures
+  int threads = 0;                 ///< 0: all
+  bool force = false;              ///< replace an earlier run in the folder
+  bool no_pictures = false;
+};
+
+/// Runs a scene and fills the folder. Returns an ExitCode; throws SceneError, StoreError, RunError.
+int run(const RunOptions& options);
+
+struct RenderCommandOptions {
+  std::filesystem::path folder;
+  std::string backend = "auto";
+  int width = 0; ///< pixels; 0: the default of RenderOptions
+};
+
+/// Draws the pictures of a stored run again.
+int render(const RenderCommandOptions& options);
+
+/// Lists the built-in scenes, or prints one.
+int show_scenes(const std::string& name);
+
+} // namespace lamella

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace lamella {
+
+/// What the program returns to the shell.
+enum ExitCode {
+  success = 0,
+  bad_input = 2,     ///< command line or scene; nothing was written
+  run_stopped = 3,   ///< the run could not go on; the last good state is stored
+  cannot_store = 4,  ///< a file could not be written or read
+  no_pictures = 5,   ///< the run is complete, its pictures could not be drawn
+  interrupted = 130, ///< Ctrl-C or SIGTERM; what there is is stored
+};
+
+} // namespace lamella

@@ -1,0 +1,22 @@
+#include "commands.h"
+
+#include "exit_code.h"
+#include "render/render.h"
+#include "run_folder.h"
+
+#include <fmt/format.h>
+
+namespace lamella {
+
+int render(const RenderCommandOptions& options) {
+  const StoredRun run = read_run(options.folder);
+  RenderOptions render_options;
+  render_options.backend = options.backend;
+  render_options.bending_modulus = run.scene.membrane.bending_modulus;
+  if (options.width > 0) render_options.width = options.width;
+  for (const auto& file : render_run(run.start, run.end, run.history, options.folder, render_options))
+    fmt::print("{}\n", file.string());
+  return success;
+}
+
+} // namespace lamella

@@ -1,0 +1,48 @@
+#pragma once
+#include "scene/scene.h"
+#include "store/frame.h"
+#include "store/history.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lamella {
+
+/// What a run leaves behind, and how it is laid out:
+///   scene.toml              the scene as run, complete
+///   history.csv             one row a step
+///   frames/frame_0000.hdf   stored states, frames/frames.hdf.series for ParaView
+///   figure.png, energy.png  pictures
+///   summary.txt             the outcome in words
+class RunFolder {
+public:
+  /// Creates the folder. An existing one that is not empty is refused unless `force`, which removes what an
+  /// earlier run left there and nothing else. Throws StoreError.
+  RunFolder(const std::filesystem::path& folder, const Scene& scene, bool force);
+
+  void add(const Measures& measures) { history_->add(measures); }
+  void add(const Frame& frame);
+  void write_summary(const std::string& text) const;
+
+  const std::filesystem::path& path() const { return folder_; }
+  int frames() const { return int(series_.size()); }
+
+private:
+  std::filesystem::path folder_;
+  std::optional<HistoryWriter> history_;
+  std::vector<SeriesEntry> series_;
+};
+
+/// A stored run, as far as pictures need it.
+struct StoredRun {
+  Scene scene;
+  std::vector<Measures> history;
+  Frame start, end;
+};
+
+/// Throws StoreError for a folder that holds no run.
+StoredRun read_run(const std::filesystem::path& folder);
+
+} // namespace lamella
