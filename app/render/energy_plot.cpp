@@ -5,6 +5,8 @@
 #include "render/sheet.h"
 #include "render/style.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,7 @@ constexpr double page_width = 1400, page_height = 1050;
 constexpr double right = 1325, bottom = 180,
                  top = 1005;    // of the plot; its left side follows from the labels
 constexpr double title_at = 70; ///< base line of the energy axis' title
+constexpr double dot_spacing = 14;
 constexpr double tick = 16, minor_tick = 9;
 constexpr double start_gap = 110; ///< between t = 0 and the logarithmic part of the axis
 
@@ -61,7 +64,7 @@ public:
     logarithmic_ = end > 0 && curve.front()[0] == 0 && end >= 100 * begin &&
                    time_of_change(curve, 0.5) < 0.05 * end;
     if (logarithmic_)
-      range_ = {std::floor(std::log10(begin)), std::log10(end) + 0.12};
+      range_ = {std::log10(begin) - 0.1, std::log10(end) + 0.12};
     else
       range_ = {curve.front()[0], end > curve.front()[0] ? end : curve.front()[0] + 1};
   }
@@ -69,7 +72,7 @@ public:
   bool logarithmic() const { return logarithmic_; }
   double log_begin() const { return left_ + start_gap; }
 
-  /// Whether a time has a place: on a logarithmic axis, 0 and what lies right of its lowest decade.
+  /// Whether a time has a place: on a logarithmic axis, 0 and what does not lie left of it.
   bool shows(double t) const { return !logarithmic_ || t == 0 || std::log10(t) >= range_.low; }
 
   double position(double t) const {
@@ -112,16 +115,16 @@ private:
       sheet.line({{x - slope, bottom - 2 * slope}, {x + slope, bottom + 2 * slope}}, line);
     draw_tick(sheet, left_, tick);
     draw_label(sheet, left_, "0");
-    const int first = int(range_.low), last = int(std::floor(range_.high));
+    const int first = int(std::floor(range_.low)), last = int(std::floor(range_.high));
     const int every = (last - first) / 7 + 1; // labels stay apart
-    for (int exponent = first; exponent <= last; ++exponent) {
-      const double power = std::pow(10, exponent);
-      draw_tick(sheet, position(power), tick);
-      if ((last - exponent) % every == 0)
-        draw_label(sheet, position(power), power_of_ten(exponent));
-      for (int m = 2; m < 10 && std::log10(m * power) < range_.high; ++m)
-        draw_tick(sheet, position(m * power), minor_tick);
-    }
+    for (int exponent = first; exponent <= last; ++exponent)
+      for (int m = 1; m < 10; ++m) {
+        const double t = m * std::pow(10, exponent);
+        if (!shows(t) || std::log10(t) > range_.high) continue;
+        draw_tick(sheet, position(t), m == 1 ? tick : minor_tick);
+        if (m == 1 && (last - exponent) % every == 0)
+          draw_label(sheet, position(t), power_of_ten(exponent));
+      }
     return 0;
   }
 
@@ -173,11 +176,12 @@ void draw_curve(Sheet& sheet, const Curve& curve, const TimeAxis& time, const En
       line.push_back({time.position(t), energy.position(e)});
   const Vec2 begin{time.position(curve.front()[0]), energy.position(curve.front()[1])};
   if (time.logarithmic() && !line.empty()) {
-    constexpr int dots = 9; // from t = 0 to the first point that the axis can show
-    for (int n = 1; n < dots; ++n) {
-      const double s = double(n) / dots;
-      sheet.disc({begin[0] + s * (line.front()[0] - begin[0]),
-                  begin[1] + s * (line.front()[1] - begin[1])},
+    const Vec2& next = line.front(); // the first point that the axis can show
+    const double distance = std::hypot(next[0] - begin[0], next[1] - begin[1]);
+    const int gaps = int(std::lround(distance / dot_spacing));
+    for (int n = 1; n < gaps; ++n) {
+      const double s = double(n) / gaps;
+      sheet.disc({std::lerp(begin[0], next[0], s), std::lerp(begin[1], next[1], s)},
                  style::hairline, style::membrane_line);
     }
   }
@@ -198,13 +202,13 @@ Picture draw_energy(Studio& studio, const std::vector<Measures>& history, double
   const int time_exponent = time.draw(sheet);
   draw_curve(sheet, curve, time, energy);
   sheet.text({(energy.left() + right) / 2, 50},
-             "time *t* / (" + factor(time_exponent) + "*ζL*⁴/*κ*)",
+             fmt::format("time *t* / ({}*ζL*⁴/*κ*)", factor(time_exponent)),
              {style::type_size, style::ink, 0.5});
-  const std::string unit =
-      energy.exponent() == 0 ? "*κ*" : "(" + factor(energy.exponent()) + "*κ*)";
   TextStyle turned{style::type_size, style::ink, 0.5};
   turned.upright = false;
-  sheet.text({title_at, (bottom + top) / 2}, "energy *E* / " + unit, turned);
+  const std::string unit =
+      energy.exponent() == 0 ? "*κ*" : fmt::format("({}*κ*)", factor(energy.exponent()));
+  sheet.text({title_at, (bottom + top) / 2}, fmt::format("energy *E* / {}", unit), turned);
   const double pixels = width / page_width;
   return studio.shoot(width, int(std::lround(page_height * pixels)), {}, sheet, pixels);
 }

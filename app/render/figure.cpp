@@ -100,6 +100,19 @@ void add_axes(Sheet& sheet, const Vec2& origin) {
   sheet.text({x - 2, y + length + 18}, "*z*", {style::small_type, style::ink, 0.5});
 }
 
+/// The view of a membrane with `middle` of the page in the middle of `extent`, which it covers and
+/// a rim; `scale` is page units per length, `pixels` pixels per page unit.
+Panel place(const Surface& surface, const Viewpoint& viewpoint, const Extent& extent, double scale,
+            const Vec2& middle, double page_height, double pixels) {
+  constexpr double rim = 10;
+  const auto whole = [&](double x) { return int(std::lround(x * pixels)); };
+  const double width = scale * extent.width() + 2 * rim, height = scale * extent.height() + 2 * rim;
+  const int rows = whole(height);
+  return {membrane_view(surface, viewpoint, extent.center(), rows / (scale * pixels)),
+          whole(middle[0] - width / 2), whole(page_height - middle[1] - height / 2), whole(width),
+          rows};
+}
+
 } // namespace
 
 Picture draw_figure(Studio& studio, const Surface& start, const Surface& end, int width) {
@@ -113,11 +126,9 @@ Picture draw_figure(Studio& studio, const Surface& start, const Surface& end, in
   std::vector<Panel> panels;
   for (int s : {0, 1}) {
     add_state(sheet, layout, s, states[s]->fine.time, sections[s]);
-    const double w = layout.scale * layout.view.width() + gap, h = layout.view_height;
-    const Vec2 middle = layout.view_center(s);
-    panels.push_back({membrane_view(*states[s], viewpoint, layout.view.center(), h / layout.scale),
-                      (middle[0] - w / 2) * pixels, (middle[1] - h / 2) * pixels, w * pixels,
-                      h * pixels});
+    const Extent& view = layout.view;
+    panels.push_back(place(*states[s], viewpoint, view, layout.scale, layout.view_center(s),
+                           layout.height, pixels));
   }
   add_axes(sheet, {margin + 10, margin});
   add_scale_bar(sheet, {style::page_width - margin, margin}, layout.scale,
@@ -138,10 +149,9 @@ Picture draw_membrane(Studio& studio, const Surface& surface, int width, int hei
              time_label(surface.fine.time), {style::type_size, style::ink});
   add_scale_bar(sheet, {style::page_width - margin, margin}, scale,
                 0.25 * style::page_width / scale);
-  const std::vector<Panel> panels{
-      {membrane_view(surface, viewpoint, extent.center(), page_height / scale), 0, 0, double(width),
-       double(height)}};
-  return studio.shoot(width, height, panels, sheet, pixels);
+  const Vec2 middle{style::page_width / 2, page_height / 2};
+  const Panel panel = place(surface, viewpoint, extent, scale, middle, page_height, pixels);
+  return studio.shoot(width, height, {panel}, sheet, pixels);
 }
 
 } // namespace lamella::render

@@ -21,9 +21,8 @@ std::string superscript(int value) {
 }
 
 /// A true minus sign instead of the hyphen.
-std::string with_minus(std::string text) {
-  if (text.starts_with('-')) text.replace(0, 1, "−");
-  return text;
+std::string with_minus(const std::string& text) {
+  return text.starts_with('-') ? std::string("−").append(text, 1) : text;
 }
 
 /// The largest of 1, 2, 2.5 or 5 times a power of ten that is not above `most`.

@@ -46,7 +46,7 @@ vtkSmartPointer<vtkUnsignedCharArray> tone(vtkPolyData& mesh, const Vec3& toward
   for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n, normal += 3, out += 3) {
     const double facing = std::clamp(dot({normal[0], normal[1], normal[2]}, toward_eye), 0.0, 1.0);
     const double rim = std::pow(1 - facing, 3);
-    const double open = 1 - 0.6 * occlusion->GetValue(n);
+    const double open = 1 - 0.5 * occlusion->GetValue(n);
     const double light = open * (1 - 0.18 * rim);
     out[0] =
         static_cast<unsigned char>(style::membrane.r * std::pow(light, 0.8)); // shadows stay warm

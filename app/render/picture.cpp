@@ -1,6 +1,7 @@
 #include "render/picture.h"
 
 #include "render/render.h"
+#include "store/atomic_file.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -8,11 +9,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <span>
-#include <unistd.h>
 
 namespace lamella::render {
 namespace {
@@ -38,18 +35,6 @@ std::vector<unsigned char> encode_png(const Picture& picture) {
   return {first, first + bytes->GetNumberOfValues()};
 }
 
-/// True when all bytes have reached the disk; errno says why not.
-bool write_bytes(const fs::path& file, std::span<const unsigned char> bytes) {
-  std::FILE* out = std::fopen(file.c_str(), "wb");
-  if (!out) return false;
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size() &&
-                       std::fflush(out) == 0 && fsync(fileno(out)) == 0;
-  const int error = errno;
-  const bool closed = std::fclose(out) == 0;
-  if (!written) errno = error;
-  return written && closed;
-}
-
 } // namespace
 
 Picture reduce(const Picture& picture, int factor) {
@@ -73,13 +58,7 @@ Picture reduce(const Picture& picture, int factor) {
 
 void write_png(const fs::path& file, const Picture& picture) {
   const std::vector<unsigned char> bytes = encode_png(picture);
-  fs::path part = file;
-  part += ".part";
-  if (write_bytes(part, bytes) && std::rename(part.c_str(), file.c_str()) == 0) return;
-  const std::string reason = std::strerror(errno);
-  std::error_code ignored;
-  fs::remove(part, ignored);
-  throw RenderError("cannot write " + file.string() + ": " + reason);
+  write_atomically(file, std::as_bytes(std::span(bytes)));
 }
 
 } // namespace lamella::render

@@ -22,7 +22,7 @@ struct Picture {
 /// factor^2.
 Picture reduce(const Picture& picture, int factor);
 
-/// Write a PNG file; it appears whole or not at all. Throws RenderError.
+/// Write a PNG file; it appears whole or not at all. Throws StoreError.
 void write_png(const std::filesystem::path& file, const Picture& picture);
 
 } // namespace lamella::render

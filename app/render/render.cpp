@@ -12,8 +12,8 @@ std::vector<std::filesystem::path> render_run(const Frame& start, const Frame& e
                                               const std::filesystem::path& folder,
                                               const RenderOptions& options) {
   using namespace render;
-  if (options.width < 300 || options.width > 8000)
-    throw RenderError("a picture's width must be 300 to 8000 pixels, not " +
+  if (options.width < 200 || options.width > 10000)
+    throw RenderError("a picture's width must be 200 to 10000 pixels, not " +
                       std::to_string(options.width));
   Studio studio(options.backend);
   const std::vector<std::filesystem::path> files{folder / "figure.png", folder / "energy.png"};

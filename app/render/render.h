@@ -9,7 +9,7 @@
 
 namespace lamella {
 
-/// A picture could not be drawn or written; the message says why and what would help.
+/// A picture could not be drawn; the message says why and what would help.
 struct RenderError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -26,7 +26,8 @@ struct RenderOptions {
 /// Draw a run into an existing folder and return the files written:
 ///   figure.png  its start and end: the membrane in 3-D above its x-z cross-section, all at one
 ///   scale energy.png  the energy over time
-/// Every file appears whole or not at all. Throws RenderError.
+/// Every file appears whole or not at all. Throws RenderError, and StoreError where a file cannot
+/// be written.
 std::vector<std::filesystem::path> render_run(const Frame& start, const Frame& end,
                                               const std::vector<Measures>& history,
                                               const std::filesystem::path& folder,

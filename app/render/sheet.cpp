@@ -12,6 +12,7 @@
 #include <vtkPen.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
+#include <vtkTransform2D.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +26,13 @@ public:
   static SheetItem* New() { VTK_STANDARD_NEW_BODY(SheetItem); }
   const Sheet* sheet = nullptr;
   double scale = 1;
+  vtkNew<vtkTransform2D> place;
 
   bool Paint(vtkContext2D* painter) override {
+    painter->PushMatrix();
+    painter->AppendTransform(place);
     sheet->paint(*painter, scale);
+    painter->PopMatrix();
     return true;
   }
 };
@@ -157,10 +162,11 @@ void Sheet::paint(vtkContext2D& painter, double scale) const {
   for (const Text& text : texts_) paint(text, painter, scale);
 }
 
-void Sheet::show_in(vtkRenderer& renderer, double scale) const {
+void Sheet::show_in(vtkRenderer& renderer, double scale, double bottom) const {
   vtkNew<SheetItem> item;
   item->sheet = this;
   item->scale = scale;
+  item->place->Translate(0, -bottom);
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(item);
   renderer.AddActor(actor);

@@ -38,8 +38,8 @@ public:
 
   /// Draw through VTK; `scale` is pixels per unit.
   void paint(vtkContext2D& painter, double scale) const;
-  /// A renderer that shows the sheet over a whole window. The sheet must outlive it.
-  void show_in(vtkRenderer& renderer, double scale) const;
+  /// Show the sheet from `bottom` (in pixels) upward in a renderer. The sheet must outlive it.
+  void show_in(vtkRenderer& renderer, double scale, double bottom) const;
 
 private:
   struct Line {

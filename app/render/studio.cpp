@@ -5,7 +5,6 @@
 #include "vtkLamellaOffscreen.h"
 
 #include <vtkNew.h>
-#include <vtkRendererCollection.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -13,8 +12,19 @@
 namespace lamella::render {
 namespace {
 
-constexpr int oversampling = 2;
-constexpr int samples = 4; ///< of OpenGL, on top of that, for the rims of surfaces
+/// How a picture is sampled: on a lattice finer than its pixels, and by OpenGL several times on
+/// each of its points. Large flat drawings are cheaper by the former, small panels full of
+/// triangles by the latter.
+struct Sampling {
+  int oversampling, multisamples;
+};
+constexpr Sampling for_surfaces{2, 4}, for_sheets{3, 0};
+
+/// The most that llvmpipe's framebuffers can be wide or high.
+constexpr int largest_side = 16384;
+
+/// Sheets are drawn in bands of so many rows: framebuffers of a whole page are slow to come by.
+constexpr int band_rows = 256;
 
 /// The window's pixels, rows from the top.
 Picture read_pixels(vtkRenderWindow& window, int width, int height) {
@@ -29,6 +39,20 @@ Picture read_pixels(vtkRenderWindow& window, int width, int height) {
   return picture;
 }
 
+/// What transparent inks on white paper give.
+Color multiply(const Color& a, const Color& b) {
+  const auto channel = [](int x, int y) { return static_cast<unsigned char>((x * y + 127) / 255); };
+  return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
+}
+
+void print_over(Picture& paper, const Picture& print, int left, int top) {
+  for (int y = std::max(0, -top); y < print.height && top + y < paper.height; ++y)
+    for (int x = std::max(0, -left); x < print.width && left + x < paper.width; ++x) {
+      Color& color = paper.pixels[std::size_t(top + y) * paper.width + left + x];
+      color = multiply(color, print.at(x, y));
+    }
+}
+
 } // namespace
 
 Studio::Studio(const std::string& backend) {
@@ -37,33 +61,46 @@ Studio::Studio(const std::string& backend) {
   window_ = vtkSmartPointer<vtkRenderWindow>::New();
   window_->OffScreenRenderingOn();
   window_->SetDPI(72); // a type size is a number of pixels
-  window_->SetNumberOfLayers(2);
+}
+
+Picture Studio::shoot(vtkRenderer& renderer, int width, int height, int oversampling,
+                      int multisamples) {
+  const int w = width * oversampling, h = height * oversampling;
+  window_->SetMultiSamples(multisamples);
+  window_->SetSize(w, h);
+  window_->AddRenderer(&renderer);
+  window_->Render();
+  const Picture picture = read_pixels(*window_, w, h);
+  window_->RemoveRenderer(&renderer);
+  return reduce(picture, oversampling);
+}
+
+Picture Studio::shoot(const Sheet& sheet, double scale, int width, int height) {
+  const int factor = std::clamp(largest_side / width, 1, for_sheets.oversampling);
+  Picture paper{width, 0, {}};
+  for (int top = 0; top < height; top += band_rows) {
+    vtkNew<vtkRenderer> band;
+    band->SetBackground(1, 1, 1);
+    sheet.show_in(*band, scale * factor, double(height - top - band_rows) * factor);
+    const Picture rows = shoot(*band, width, band_rows, factor, for_sheets.multisamples);
+    paper.pixels.insert(paper.pixels.end(), rows.pixels.begin(), rows.pixels.end());
+  }
+  paper.height = height;
+  paper.pixels.resize(std::size_t(width) * height);
+  return paper;
+}
+
+Picture Studio::shoot(const Panel& panel) {
+  const int factor =
+      std::clamp(largest_side / std::max(panel.width, panel.height), 1, for_surfaces.oversampling);
+  return shoot(*panel.renderer, panel.width, panel.height, factor, for_surfaces.multisamples);
 }
 
 Picture Studio::shoot(int width, int height, const std::vector<Panel>& panels, const Sheet& sheet,
                       double scale) {
-  window_->SetMultiSamples(panels.empty() ? 0 : samples);
-  window_->SetSize(width * oversampling, height * oversampling);
-  vtkNew<vtkRenderer> paper; // clears the whole window
-  paper->SetBackground(1, 1, 1);
-  paper->EraseOn();
-  window_->AddRenderer(paper);
-  for (const Panel& panel : panels) {
-    panel.renderer->SetViewport(panel.left / width, panel.bottom / height,
-                                (panel.left + panel.width) / width,
-                                (panel.bottom + panel.height) / height);
-    window_->AddRenderer(panel.renderer);
-  }
-  vtkNew<vtkRenderer> overlay;
-  overlay->SetLayer(1);
-  sheet.show_in(*overlay, scale * oversampling);
-  window_->AddRenderer(overlay);
-
-  window_->Render();
-  Picture picture = read_pixels(*window_, width * oversampling, height * oversampling);
-  while (vtkRenderer* renderer = window_->GetRenderers()->GetFirstRenderer())
-    window_->RemoveRenderer(renderer);
-  return reduce(picture, oversampling);
+  Picture paper = shoot(sheet, scale, width, height);
+  for (const Panel& panel : panels) print_over(paper, shoot(panel), panel.left, panel.top);
+  return paper;
 }
 
 } // namespace lamella::render

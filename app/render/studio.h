@@ -12,10 +12,11 @@ namespace lamella::render {
 
 class Sheet;
 
-/// A renderer and its place in a picture, in pixels from the lower left corner.
+/// A renderer with a white background and its place in a picture, in pixels from the upper left
+/// corner.
 struct Panel {
   vtkSmartPointer<vtkRenderer> renderer;
-  double left = 0, bottom = 0, width = 0, height = 0;
+  int left = 0, top = 0, width = 0, height = 0;
 };
 
 /// The one offscreen window that all pictures of a program are taken with (a new one costs 0.1 s).
@@ -24,12 +25,17 @@ public:
   /// Throws RenderError when nothing here can render; see vtkLamellaOffscreen for the backends.
   explicit Studio(const std::string& backend);
 
-  /// Draw panels and, over them, a sheet with `scale` pixels per unit, on white. Drawn at twice the
-  /// size and reduced: all edges, lines and letters come out smooth. Throws RenderError.
+  /// Print panels and, over them, a sheet with `scale` pixels per unit, on white paper: inks
+  /// multiply. Drawn at twice the size and reduced: all edges, lines and letters come out smooth.
+  /// Throws RenderError.
   Picture shoot(int width, int height, const std::vector<Panel>& panels, const Sheet& sheet,
                 double scale);
 
 private:
+  Picture shoot(const Sheet& sheet, double scale, int width, int height);
+  Picture shoot(const Panel& panel);
+  Picture shoot(vtkRenderer& renderer, int width, int height, int oversampling, int multisamples);
+
   vtkSmartPointer<vtkRenderWindow> window_;
 };
 

@@ -1,6 +1,7 @@
 #include "render/surface.h"
 
 #include "render/labels.h"
+#include "render/occlusion.h"
 #include "render/refine.h"
 #include "render/render.h"
 
@@ -24,73 +25,6 @@ namespace {
 /// cannot be seen.
 constexpr int fine_cells = 90;
 constexpr int largest_refinement = 4;
-
-/// phi and its gradient between the nodes, trilinear.
-class Sampler {
-public:
-  explicit Sampler(const Frame& frame) : frame_(frame) {}
-
-  double value(const Vec3& p) const {
-    return interpolate(p, [&](int i, int j, int k) { return node(i, j, k); });
-  }
-
-  Vec3 gradient(const Vec3& p) const {
-    Vec3 g;
-    for (int a = 0; a < 3; ++a)
-      g[a] = interpolate(p, [&](int i, int j, int k) { return difference(a, i, j, k); });
-    return g;
-  }
-
-private:
-  double node(int i, int j, int k) const {
-    const auto& n = frame_.grid.nodes;
-    return frame_.phi[frame_.grid.index(std::clamp(i, 0, n[0] - 1), std::clamp(j, 0, n[1] - 1),
-                                        std::clamp(k, 0, n[2] - 1))];
-  }
-
-  /// Fourth-order central difference along an axis, times the spacing.
-  double difference(int axis, int i, int j, int k) const {
-    const std::array<int, 3> d{axis == 0, axis == 1, axis == 2};
-    const auto at = [&](int s) { return node(i + s * d[0], j + s * d[1], k + s * d[2]); };
-    return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / 12;
-  }
-
-  template <class Node>
-  double interpolate(const Vec3& p, Node&& node) const {
-    const Grid& grid = frame_.grid;
-    std::array<int, 3> base;
-    Vec3 t;
-    for (int a = 0; a < 3; ++a) {
-      const double x = (p[a] - grid.origin(a)) / grid.spacing;
-      base[a] = std::clamp(int(std::floor(x)), 0, std::max(0, grid.nodes[a] - 2));
-      t[a] = std::clamp(x - base[a], 0.0, 1.0);
-    }
-    double sum = 0;
-    for (int c = 0; c < 8; ++c) {
-      const int i = c & 1, j = c >> 1 & 1, k = c >> 2;
-      const double weight = (i ? t[0] : 1 - t[0]) * (j ? t[1] : 1 - t[1]) * (k ? t[2] : 1 - t[2]);
-      if (weight > 0) sum += weight * node(base[0] + i, base[1] + j, base[2] + k);
-    }
-    return sum;
-  }
-
-  const Frame& frame_;
-};
-
-/// How much of the outside, up to a distance `reach` along the normal, comes closer to some other
-/// part of the membrane than to p: what a signed distance function tells of ambient light.
-double occlusion(const Sampler& phi, const Vec3& p, const Vec3& normal, double reach) {
-  constexpr int samples = 5;
-  double sum = 0, weights = 0;
-  for (int s = 1; s <= samples; ++s) {
-    const double distance = reach * s / samples, weight = 1.0 / s;
-    Vec3 q;
-    for (int a = 0; a < 3; ++a) q[a] = p[a] + distance * normal[a];
-    sum += weight * std::clamp(1 - phi.value(q) / distance, 0.0, 1.0);
-    weights += weight;
-  }
-  return sum / weights;
-}
 
 vtkSmartPointer<vtkPolyData> contour(Frame& fine) {
   vtkNew<vtkDoubleArray> values; // shares the frame's memory
@@ -130,7 +64,7 @@ double half_size(const Frame& frame) {
   return 0.5 * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-void add_point_data(vtkPolyData& mesh, const Frame& fine, double reach) {
+void add_point_data(vtkPolyData& mesh, const Frame& fine, const Occlusion& occlusion) {
   const Sampler phi(fine);
   const vtkIdType points = mesh.GetNumberOfPoints();
   vtkNew<vtkFloatArray> normals;
@@ -147,7 +81,7 @@ void add_point_data(vtkPolyData& mesh, const Frame& fine, double reach) {
     const double length = std::hypot(normal[0], normal[1], normal[2]);
     for (double& x : normal) x /= std::max(length, 1e-300);
     for (int a = 0; a < 3; ++a) normals->SetTypedComponent(n, a, float(normal[a]));
-    shade->SetValue(n, float(occlusion(phi, p, normal, reach)));
+    shade->SetValue(n, float(occlusion.at(p, normal)));
   }
   mesh.GetPointData()->SetNormals(normals);
   mesh.GetPointData()->AddArray(shade);
@@ -156,15 +90,16 @@ void add_point_data(vtkPolyData& mesh, const Frame& fine, double reach) {
 } // namespace
 
 Surface extract_surface(const Frame& frame) {
-  const double size = half_size(frame), reach = 0.25 * size;
+  const double size = half_size(frame), shadow = 0.12 * size;
   const double wanted = size > 0 ? fine_cells * frame.grid.spacing / size : 1;
   const int factor = std::clamp(int(std::ceil(wanted)), 1, largest_refinement);
-  Surface surface{refine(crop(frame, reach + 4 * frame.grid.spacing), factor), nullptr};
+  const Frame around = crop(frame, 2 * shadow + 4 * frame.grid.spacing);
+  Surface surface{refine(around, factor), nullptr};
   surface.mesh = contour(surface.fine);
   if (surface.mesh->GetNumberOfPoints() == 0)
     throw RenderError("nothing to draw: the level set at t = " + plain(number(frame.time)) +
                       " has no membrane");
-  add_point_data(*surface.mesh, surface.fine, reach);
+  add_point_data(*surface.mesh, surface.fine, Occlusion(around, shadow));
   return surface;
 }
 

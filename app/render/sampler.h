@@ -1,0 +1,61 @@
+#pragma once
+#include "store/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamella::render {
+
+/// A frame's field and its gradient between the nodes, trilinear. The frame must outlive it.
+class Sampler {
+public:
+  explicit Sampler(const Frame& frame) : frame_(frame) {}
+
+  double value(const Vec3& p) const {
+    return interpolate(p, [&](int i, int j, int k) { return node(i, j, k); });
+  }
+
+  /// From fourth-order differences at the nodes.
+  Vec3 gradient(const Vec3& p) const {
+    Vec3 g;
+    for (int a = 0; a < 3; ++a)
+      g[a] = interpolate(p, [&](int i, int j, int k) { return difference(a, i, j, k); });
+    return g;
+  }
+
+private:
+  double node(int i, int j, int k) const {
+    const auto& n = frame_.grid.nodes;
+    return frame_.phi[frame_.grid.index(std::clamp(i, 0, n[0] - 1), std::clamp(j, 0, n[1] - 1),
+                                        std::clamp(k, 0, n[2] - 1))];
+  }
+
+  double difference(int axis, int i, int j, int k) const {
+    const std::array<int, 3> d{axis == 0, axis == 1, axis == 2};
+    const auto at = [&](int s) { return node(i + s * d[0], j + s * d[1], k + s * d[2]); };
+    return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * frame_.grid.spacing);
+  }
+
+  template <class Node>
+  double interpolate(const Vec3& p, Node&& node) const {
+    const Grid& grid = frame_.grid;
+    std::array<int, 3> base;
+    Vec3 t;
+    for (int a = 0; a < 3; ++a) {
+      const double x = (p[a] - grid.origin(a)) / grid.spacing;
+      base[a] = std::clamp(int(std::floor(x)), 0, std::max(0, grid.nodes[a] - 2));
+      t[a] = std::clamp(x - base[a], 0.0, 1.0);
+    }
+    double sum = 0;
+    for (int c = 0; c < 8; ++c) {
+      const int i = c & 1, j = c >> 1 & 1, k = c >> 2;
+      const double weight = (i ? t[0] : 1 - t[0]) * (j ? t[1] : 1 - t[1]) * (k ? t[2] : 1 - t[2]);
+      if (weight > 0) sum += weight * node(base[0] + i, base[1] + j, base[2] + k);
+    }
+    return sum;
+  }
+
+  const Frame& frame_;
+};
+
+} // namespace lamella::render
