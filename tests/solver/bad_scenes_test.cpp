@@ -195,6 +195,8 @@ std::vector<BadScene> bad_scenes() {
       {"TooLarge", repeated("# comment\n", 110000), "bad.toml: larger than 1 MiB", "short text"},
       {"DeepLists", "x = " + std::string(200000, '['), "bad.toml:1: this is not TOML", "nest"},
       {"DeepTables", "x = " + repeated("{a=", 100000), "bad.toml:1: this is not TOML", "nest"},
+      {"DeepInEveryWay", "x = " + repeated("[\n{" + repeated("a.", 24) + "a = ", 2000),
+       "bad.toml:", "nest"},
       {"DeepKeys", repeated("a.", 300000) + "a = 1\n", "bad.toml:1: nested too deeply",
        "plain keys"},
       {"DeepSections", std::string("[") + repeated("a.", 300000) + "a]\n",
