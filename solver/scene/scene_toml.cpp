@@ -137,7 +137,7 @@ KeyLocator locator(const std::vector<Given>& given, const std::string& source) {
   };
 }
 
-std::string length_unit_note(const Key& key) {
+std::string unit_note(const Key& key) {
   return key.unit.empty() ? std::string() : fmt::format(" ({})", key.unit);
 }
 
@@ -164,7 +164,7 @@ std::string to_toml(const Scene& scene) {
     if (!key.belongs_to(scene.shape.kind)) continue;
     if (key.section != section) text += fmt::format("\n[{}]\n", section = key.section);
     const std::string setting = fmt::format("{} = {}", key.name, value_text(key, scene));
-    text += fmt::format("{:<36} # {}{}\n", setting, key.help, length_unit_note(key));
+    text += fmt::format("{:<36} # {}{}\n", setting, key.help, unit_note(key));
   }
   return text;
 }

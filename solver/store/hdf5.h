@@ -10,17 +10,15 @@ namespace lamella {
 class H5Handle {
 public:
   explicit H5Handle(hid_t id) : id_(id) {}
-  ~H5Handle() { close(); }
+  ~H5Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
   H5Handle(H5Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
   H5Handle& operator=(H5Handle&&) = delete;
 
-  bool valid() const { return id_ >= 0; }
   operator hid_t() const { return id_; }
 
 private:
-  void close() {
-    if (valid()) H5Idec_ref(id_);
-  }
   hid_t id_;
 };
 
