@@ -44,15 +44,15 @@ fs::path find_dejavu() {
 
 bool set_face(vtkTextProperty& property, Face face) {
   static const fs::path folder = find_dejavu();
-  std::error_code ignored;
-  fs::path file = folder / file_names[std::size_t(face)];
-  if (!fs::exists(file, ignored)) file = folder / file_names[0]; // fonts-dejavu-core has no oblique
   if (folder.empty()) {
     property.SetFontFamilyToArial();
     property.SetBold(face == Face::bold);
     property.SetItalic(face == Face::oblique);
     return false;
   }
+  std::error_code ignored;
+  fs::path file = folder / file_names[std::size_t(face)];
+  if (!fs::exists(file, ignored)) file = folder / file_names[0]; // fonts-dejavu-core has no oblique
   property.SetFontFamily(VTK_FONT_FILE);
   property.SetFontFile(file.c_str());
   return true;
