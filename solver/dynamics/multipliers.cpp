@@ -1,34 +1,31 @@
 #include "dynamics/multipliers.h"
 
-#include <Eigen/Dense>
+#include <Eigen/SVD>
 
 namespace lamella {
 
-namespace {
+Eigen::Vector2d solve_scaled(const Eigen::Matrix2d& m, const Eigen::Vector2d& b) {
+  constexpr double damping = 1e-8;
+  const Eigen::Vector2d row_scale = m.rowwise().norm().cwiseInverse();
+  Eigen::Matrix2d scaled = row_scale.asDiagonal() * m;
+  const Eigen::Vector2d column_scale = scaled.colwise().norm().transpose().cwiseInverse();
+  scaled = scaled * column_scale.asDiagonal();
+  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(scaled, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Array2d s = svd.singularValues().array();
+  const Eigen::Vector2d along = svd.matrixU().transpose() * row_scale.cwiseProduct(b);
+  const Eigen::Vector2d damped = (along.array() * s / (s.square() + damping * damping)).matrix();
+  return column_scale.cwiseProduct(svd.matrixV() * damped);
+}
 
-/// Solves the Gram system of (1, K_M), scaled to unit diagonal. Directions in which the scaled matrix is below
-/// `ridge` are left alone: K_M constant to 1e-4 is a sphere.
-Multipliers solve(const SurfaceIntegrals& integrals, Eigen::Vector2d rhs) {
-  constexpr double ridge = 1e-8;
-  const Eigen::Matrix2d gram = integrals.gram.topLeftCorner<2, 2>();
-  const Eigen::Vector2d scale = gram.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::Matrix2d scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scaled);
-  const Eigen::Vector2d along = eigen.eigenvectors().transpose() * scale.cwiseProduct(rhs);
-  const Eigen::Array2d lambda = eigen.eigenvalues().array();
-  const Eigen::Vector2d damped = (along.array() * lambda / (lambda.square() + ridge * ridge)).matrix();
-  const Eigen::Vector2d x = scale.cwiseProduct(eigen.eigenvectors() * damped);
+Multipliers multipliers_at_rest(const SurfaceIntegrals& integrals) {
+  const Eigen::Vector2d x = solve_scaled(integrals.gram.topLeftCorner<2, 2>(), integrals.variation.head<2>());
   return {x[0], x[1]};
 }
 
-} // namespace
-
-Multipliers multipliers_at_rest(const SurfaceIntegrals& integrals) {
-  return solve(integrals, integrals.variation.head<2>());
-}
-
 Multipliers displacement_for(const SurfaceIntegrals& integrals, double volume_change, double area_change) {
-  return solve(integrals, {volume_change, -area_change}); // dA = -int K_M u dA
+  const Eigen::Vector2d wanted{volume_change, -area_change}; // dA = -int K_M u dA
+  const Eigen::Vector2d x = solve_scaled(integrals.gram.topLeftCorner<2, 2>(), wanted);
+  return {x[0], x[1]};
 }
 
 } // namespace lamella

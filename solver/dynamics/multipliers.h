@@ -7,13 +7,6 @@ namespace lamella {
 struct Multipliers {
   double P = 0;     ///< of 1: pressure
   double sigma = 0; ///< of K_M: tension
-
-  Multipliers& operator+=(const Multipliers& other) {
-    P += other.P;
-    sigma += other.sigma;
-    return *this;
-  }
-  friend Multipliers operator*(double a, Multipliers m) { return {a * m.P, a * m.sigma}; }
 };
 
 /// P and sigma for which the velocity -F + sigma K_M + P changes neither volume nor area (Eq. 80 ff.):
@@ -22,5 +15,9 @@ Multipliers multipliers_at_rest(const SurfaceIntegrals& integrals);
 
 /// The normal displacement P + sigma K_M that changes volume and area by the given amounts, to first order.
 Multipliers displacement_for(const SurfaceIntegrals& integrals, double volume_change, double area_change);
+
+/// Solves m x = b with rows and columns scaled to unit norm and directions of singular value below 1e-8 damped
+/// out: on a sphere volume and area say the same.
+Eigen::Vector2d solve_scaled(const Eigen::Matrix2d& m, const Eigen::Vector2d& b);
 
 } // namespace lamella

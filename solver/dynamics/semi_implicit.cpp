@@ -10,11 +10,13 @@ namespace {
 constexpr double blend = 1;               // z0: modes with z above it are mostly Euler
 constexpr double least_history = 0.5;      // of SBDF2, for stiff modes too: halves their lag; stable to 1.5 times the symbol
 constexpr double least_spline_symbol = 0.25; // along an axis; nodal rates become coefficient rates no further
+double* numbers(std::complex<double>* modes) { return reinterpret_cast<double*>(modes); }
 } // namespace
 
 SemiImplicit::SemiImplicit(const Grid& grid, Fourier& fourier)
     : grid_(grid), fourier_(fourier), rate_(fourier.modes(), 0.0), spectral_increment_(fourier.modes(), 0.0),
-      increment_(grid.size(), 0.0), previous_(grid.size(), 0.0), before_(grid.size(), 0.0) {
+      spectral_response_(fourier.modes(), 0.0), increment_(grid.size(), 0.0), previous_(grid.size(), 0.0),
+      response_(grid.size(), 0.0) {
   auto symbol = [&](int axis, int m) { return std::max(least_spline_symbol, fourier.spline_symbol(axis, m)); };
   for (int m = 0; m < fourier.row_modes(); m++)
     for (int part = 0; part < 2; part++) {
@@ -28,41 +30,59 @@ SemiImplicit::SemiImplicit(const Grid& grid, Fourier& fourier)
     }
 }
 
-void SemiImplicit::advance(LevelSet& phi, const Extension& rates, double dt, const ImplicitSymbol& symbol) {
-  ratio_ = last_dt_ > 0 ? dt / last_dt_ : 0;
-  last_dt_ = dt;
+SpectralRow SemiImplicit::row(int ky, int kz) const {
+  return {fourier_.row_modes(),
+          kx2_.data(),
+          inv_symbol_x_.data(),
+          k2_[0][ky] + k2_[1][kz],
+          1 / (symbol_[0][ky] * symbol_[1][kz] * double(grid_.size())),
+          dt_,
+          ratio_,
+          implicit_.stiffness,
+          implicit_.tension,
+          blend,
+          least_history};
+}
+
+void SemiImplicit::predict(const Extension& rates, double dt, const ImplicitSymbol& symbol) {
+  ratio_ = dt_ > 0 ? dt / dt_ : 0;
+  dt_ = dt;
+  implicit_ = symbol;
   increment_.swap(previous_);
   const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
-  auto step = [&](int ky, int kz, std::complex<double>* row) {
+  auto step = [&](int ky, int kz, std::complex<double>* modes) {
     const std::size_t at = fourier_.row_index(ky, kz);
-    const SpectralRow r{fourier_.row_modes(),
-                        kx2_.data(),
-                        inv_symbol_x_.data(),
-                        k2_[0][ky] + k2_[1][kz],
-                        1 / (symbol_[0][ky] * symbol_[1][kz] * double(grid_.size())),
-                        dt,
-                        ratio_,
-                        symbol.stiffness,
-                        symbol.tension,
-                        blend,
-                        least_history};
-    kernels().spectral_row(r, reinterpret_cast<double*>(row), reinterpret_cast<double*>(&rate_[at]),
-                           reinterpret_cast<double*>(&spectral_increment_[at]));
+    kernels().spectral_row(row(ky, kz), numbers(modes), numbers(&rate_[at]), numbers(&spectral_increment_[at]),
+                           numbers(&spectral_response_[at]), response_factor_);
   };
+  fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step,
+                 [&](int k, const double* in) { std::copy_n(in, plane, &increment_[k * plane]); });
+}
+
+void SemiImplicit::respond(const Extension& rates) {
+  const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
+  auto step = [&](int ky, int kz, std::complex<double>* modes) {
+    kernels().euler_row(row(ky, kz), numbers(modes));
+    std::copy_n(modes, fourier_.row_modes(), &spectral_response_[fourier_.row_index(ky, kz)]);
+  };
+  fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step,
+                 [&](int k, const double* in) { std::copy_n(in, plane, &response_[k * plane]); });
+}
+
+void SemiImplicit::apply(LevelSet& phi, double factor, double constant) {
   double* c = phi.coefficients().data();
-  auto add = [&](int k, const double* increment) {
-    double *out = &increment_[k * plane], *ck = c + k * plane, *before = &before_[k * plane];
-    for (std::size_t i = 0; i < plane; i++) {
-      out[i] = increment[i];
-      before[i] = ck[i];
-      ck[i] += increment[i];
+  parallel_for(grid_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      increment_[i] += factor * response_[i] + constant;
+      c[i] += increment_[i];
     }
-  };
-  fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step, add);
+  });
+  response_factor_ = factor;
+  spectral_increment_[0] += constant;
 }
 
 void SemiImplicit::rescale(double factor) {
-  for (auto* modes : {&rate_, &spectral_increment_})
+  for (auto* modes : {&rate_, &spectral_increment_, &spectral_response_})
     for (auto& m : *modes) m *= factor;
   for (double& d : increment_) d *= factor;
 }

@@ -3,6 +3,7 @@
 #include "levelset/level_set.h"
 
 #include <complex>
+#include <span>
 #include <vector>
 
 namespace lamella {
@@ -15,37 +16,46 @@ struct ImplicitSymbol {
 
 /// Advances phi by d phi / dt = rate with the stiff part implicit: a blend, mode by mode, of SBDF2 (where
 /// z = dt (stiffness k^4 + tension k^2) is small) and semi-implicit Euler (where it is large), with variable
-/// steps, in one Fourier transform pair. The blend is stable while the true symbol is below twice the
-/// implicit one; SBDF2 alone needs 4/3, and Euler alone is first order.
+/// steps. Stiff modes keep half of SBDF2's history, which halves their lag; that is stable while the true
+/// symbol is below 1.5 times the implicit one (Euler alone: 2, SBDF2 alone: 4/3).
+///
+/// A step is made of predict(), respond() and apply(), in this order.
 class SemiImplicit {
 public:
   SemiImplicit(const Grid& grid, Fourier& fourier);
 
-  /// c += increment; `rates` gives nodal rates plane by plane.
-  void advance(LevelSet& phi, const Extension& rates, double dt, const ImplicitSymbol& symbol);
+  /// Coefficient increment of a step of length dt at the given nodal rates.
+  void predict(const Extension& rates, double dt, const ImplicitSymbol& symbol);
 
-  /// Coefficient increments of the last step, and of the one before it, at the nodes.
+  /// What a constraint force does in the same step: its nodal rates, smoothed as the step smooths. Constraints
+  /// that are kept along this response, and not along the force itself, do not work against the step.
+  void respond(const Extension& rates);
+
+  /// c += increment + factor response + constant; the sum is the increment that the next step remembers.
+  void apply(LevelSet& phi, double factor, double constant);
+
+  /// Coefficients at the nodes: of the step under way from predict() on, of the last step after apply().
   std::span<const double> increment() const { return increment_; }
+  std::span<const double> response() const { return response_; }
+  /// Of the step before.
   std::span<const double> previous_increment() const { return previous_; }
-  /// Coefficients before the last step: what to go back to when it went wrong.
-  std::span<const double> before() const { return before_; }
-  /// Last step over the one before; 0 where there is no history.
+  /// This step over the one before; 0 where there is no history.
   double step_ratio() const { return ratio_; }
-  double last_dt() const { return last_dt_; }
 
   /// phi was multiplied by `factor`.
   void rescale(double factor);
-  /// The next step is Euler.
-  void forget() { last_dt_ = 0; }
 
 private:
+  SpectralRow row(int ky, int kz) const;
+
   Grid grid_;
   Fourier& fourier_;
   std::vector<double> kx2_, inv_symbol_x_; // each number twice: real and imaginary part
   std::vector<double> k2_[2], symbol_[2];  // along y and z
-  Array<std::complex<double>> rate_, spectral_increment_;
-  Array<double> increment_, previous_, before_;
-  double last_dt_ = 0, ratio_ = 0;
+  Array<std::complex<double>> rate_, spectral_increment_, spectral_response_;
+  Array<double> increment_, previous_, response_;
+  ImplicitSymbol implicit_;
+  double dt_ = 0, ratio_ = 0, response_factor_ = 0;
 };
 
 } // namespace lamella

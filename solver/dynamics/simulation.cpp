@@ -15,7 +15,7 @@ namespace lamella {
 namespace {
 constexpr double band_half_width = 4.2;  // spacings: the spline's reach and a little more
 constexpr double worst_drift = 2e-6;     // relative error of volume and area that a recorded state may have
-constexpr int most_projections = 4;
+constexpr int most_projections = 8;
 constexpr double force_limit = 0.3;      // kappa / h^3: more is noise of an unresolved tip
 constexpr double gauge_limit = 1.6;      // |grad phi| over its mean
 constexpr int steps_between_renormalisations = 5;
@@ -34,6 +34,8 @@ Simulation::Simulation(const Scene& scene)
   const std::vector<double> start = initial_phi(scene.shape, scene.grid());
   std::copy(start.begin(), start.end(), phi_.coefficients().begin());
   phi_.fit(start, fourier_, fit_sweeps);
+  area_ = exact_area(scene.shape);
+  volume_ = exact_volume(scene.shape);
   measure();
   measures_ = summarise(0);
   check(measures_);
@@ -41,7 +43,8 @@ Simulation::Simulation(const Scene& scene)
 
 Frame Simulation::frame() const {
   LevelSet phi = phi_;
-  if (broken_) std::copy(stepper_.before().begin(), stepper_.before().end(), phi.coefficients().begin());
+  if (broken_)
+    for (std::size_t i = 0; i < phi.coefficients().size(); i++) phi.coefficients()[i] -= stepper_.increment()[i];
   phi.update_nodal();
   return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}};
 }
@@ -52,16 +55,10 @@ Frame Simulation::frame() const {
 /// suffice to measure the drift of volume and area; what is recorded is measured after its correction.
 void Simulation::measure() {
   locate();
-  if (area_ > 0) {
-    surface_.curvatures(phi_, band_);
-    integrals_ = integrate(surface_, bending_, {});
-    feedback_ += 1 / stepper_.last_dt() * project();
-  }
+  surface_.curvatures(phi_, band_);
+  integrals_ = integrate(surface_, bending_, {});
+  project();
   measure_forces();
-  if (area_ == 0) {
-    area_ = integrals_.area();
-    volume_ = integrals_.volume;
-  }
   for (int pass = 0; pass < most_projections && drift() > worst_drift; pass++) {
     project();
     measure_forces();
@@ -79,8 +76,8 @@ void Simulation::locate() {
   if (surface_.size() == 0) throw RunError("the membrane has disappeared");
 }
 
-/// Displaces the membrane by a + b K_M so that volume and area are those of the start. Returns a and b.
-Multipliers Simulation::project() {
+/// Displaces the membrane by a + b K_M so that volume and area are those of the scene.
+void Simulation::project() {
   const double longest = 0.3 * grid().spacing;
   const Multipliers u = displacement_for(integrals_, volume_ - integrals_.volume, area_ - integrals_.area());
   const Points p = band_.points();
@@ -97,7 +94,6 @@ Multipliers Simulation::project() {
   extension_.complete(band_, surface_.sampled(), 0, work_);
   std::span<double> c = phi_.coefficients();
   for (std::size_t s = 0; s < band_.size(); s++) c[band_.node()[s]] -= band_.taper(band_.distance()[s]) * work_[s];
-  return u;
 }
 
 void Simulation::measure_forces() {
@@ -113,10 +109,12 @@ void Simulation::measure_forces() {
   integrals_ = integrate(surface_, bending_, variation_);
   multipliers_ = multipliers_at_rest(integrals_);
   max_speed_ = 0;
-  for (std::size_t i = 0; i < surface_.size(); i++) {
-    const double v = -variation_[i] + multipliers_.sigma * surface_.KM()[i] + multipliers_.P;
-    max_speed_ = std::max(max_speed_, std::abs(v));
-  }
+  for (std::size_t i = 0; i < surface_.size(); i++) max_speed_ = std::max(max_speed_, std::abs(velocity(i)));
+}
+
+/// Normal velocity at a sample (Eq. 80).
+double Simulation::velocity(std::size_t i) const {
+  return -variation_[i] + multipliers_.sigma * surface_.KM()[i] + multipliers_.P;
 }
 
 Measures Simulation::summarise(double dt) const {
@@ -163,25 +161,55 @@ double Simulation::choose_dt(double latest) const {
 
 double Simulation::next_dt() const { return choose_dt(1e300); }
 
-/// d phi / dt = -v |grad phi| at the membrane, carried into the box. What past steps had to be corrected by is
-/// added to the multipliers: the implicit part of a step bends volume and area alike in step after step.
-void Simulation::extend_rates() {
-  const double P = multipliers_.P + feedback_.P, sigma = multipliers_.sigma + feedback_.sigma;
+/// d phi / dt = -v |grad phi| for a velocity v at the samples, carried into the box.
+template <class Velocity> void Simulation::extend_rates(Velocity&& v) {
   work_.resize(band_.size());
-  for (std::size_t i = 0; i < surface_.size(); i++) {
-    const double v = -variation_[i] + sigma * surface_.KM()[i] + P;
-    work_[surface_.entry()[i]] = -v * surface_.grad()[i];
-  }
+  for (std::size_t i = 0; i < surface_.size(); i++) work_[surface_.entry()[i]] = -v(i) * surface_.grad()[i];
   extension_.complete(band_, surface_.sampled(), 0, work_);
   extension_.fill(band_, work_);
 }
 
+/// Adds to the step's increment what keeps volume and area to first order: the response to a tension, and a
+/// constant. (Constraint forces in the metric of the implicit step: energy then falls as in a gradient flow of
+/// that metric. Corrected afterwards, along K_M itself, long tubes began to oscillate.)
+void Simulation::apply_constrained() {
+  const std::size_t n = surface_.size();
+  std::vector<double> x(n), y(n), z(n), increment(n), response(n);
+  for (std::size_t i = 0; i < n; i++) {
+    const Vec3 p = surface_.point(i);
+    x[i] = p[0];
+    y[i] = p[1];
+    z[i] = p[2];
+  }
+  SplineView field = phi_.view();
+  for (auto [source, values] : {std::pair{stepper_.increment(), &increment}, {stepper_.response(), &response}}) {
+    field.coefficients = source.data();
+    parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
+      kernels().cubic(field, end - begin, {&x[begin], &y[begin], &z[begin]}, &(*values)[begin]);
+    });
+  }
+  Eigen::Matrix2d change = Eigen::Matrix2d::Zero(); // of volume and area, with factor and constant
+  Eigen::Vector2d wanted{volume_ - integrals_.volume, area_ - integrals_.area()};
+  for (std::size_t i = 0; i < n; i++) {
+    const double w = -surface_.weight()[i] / surface_.grad()[i], KM = surface_.KM()[i];
+    const Eigen::Vector2d effect{w, -w * KM};
+    change.col(0) += effect * response[i];
+    change.col(1) += effect;
+    wanted -= effect * increment[i];
+  }
+  const Eigen::Vector2d solution = solve_scaled(change, wanted);
+  if (!solution.allFinite()) throw RunError("the step is not finite");
+  stepper_.apply(phi_, solution[0], solution[1]);
+}
+
 void Simulation::step(double latest) {
-  const double dt = choose_dt(latest);
-  extend_rates();
+  const double dt = choose_dt(latest), C = bending_.spontaneous_curvature, kappa = bending_.bending_modulus;
   gauge_.filter(phi_, band_);
-  const double C = bending_.spontaneous_curvature, kappa = bending_.bending_modulus;
-  stepper_.advance(phi_, extension_, dt, {kappa, std::max(0.0, multipliers_.sigma + 0.5 * kappa * C * C)});
+  extend_rates([&](std::size_t i) { return velocity(i); });
+  stepper_.predict(extension_, dt, {kappa, std::max(0.0, multipliers_.sigma + 0.5 * kappa * C * C)});
+  extend_rates([&](std::size_t i) { return surface_.KM()[i]; });
+  stepper_.respond(extension_);
+  apply_constrained();
   error_ = step_error();
   steps_++;
   broken_ = true;

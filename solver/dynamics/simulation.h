@@ -34,13 +34,15 @@ public:
 private:
   void measure();
   void locate();
-  Multipliers project();
+  void project();
+  void apply_constrained();
+  double velocity(std::size_t sample) const;
   double drift() const;
   void measure_forces();
   void check(const Measures& m) const;
   void renormalise_if_needed();
   Measures summarise(double dt) const;
-  void extend_rates();
+  template <class Velocity> void extend_rates(Velocity&& v);
   double step_error() const;
   double choose_dt(double latest) const;
 
@@ -55,11 +57,10 @@ private:
   SurfaceGeometry surface_;
   SurfaceIntegrals integrals_;
   Multipliers multipliers_;
-  Multipliers feedback_; // velocity a + b K_M that keeps volume and area through a step
   std::vector<double> variation_;  // F at the samples
   std::vector<double> grad_, work_; // a number a band entry
   bool broken_ = false; // the last step failed: the state is the one before it
-  double area_ = 0, volume_ = 0; // of the start
+  double area_ = 0, volume_ = 0; // of the scene's shape
   double max_force_ = 0, max_speed_ = 0, error_ = 0;
   long steps_ = 0, renormalised_ = 0;
   Measures measures_;

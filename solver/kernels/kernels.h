@@ -67,8 +67,13 @@ struct Kernels {
   void (*cubic)(const SplineView& data, std::size_t n, ConstPoints p, double* out);
 
   /// rate (in: transform of nodal rates; out: transform of the coefficient increment), with the history
-  /// rows rate_old and increment_old brought up to date.
-  void (*spectral_row)(const SpectralRow& row, double* rate, double* rate_old, double* increment_old);
+  /// rows rate_old and increment_old brought up to date. The last increment was increment_old +
+  /// correction_factor correction.
+  void (*spectral_row)(const SpectralRow& row, double* rate, double* rate_old, double* increment_old,
+                       const double* correction, double correction_factor);
+
+  /// rate (in: transform of nodal rates; out: transform of the increment of one semi-implicit Euler step).
+  void (*euler_row)(const SpectralRow& row, double* rate);
 };
 
 /// The best kernels for this CPU; LAMELLA_KERNELS=baseline|avx2|avx512 in the environment overrides.

@@ -271,17 +271,25 @@ void cubic(const SplineView& s, std::size_t n, ConstPoints points, double* out) 
 // ------------------------------------------------------------------------------------------- spectral step
 
 void spectral_row(const SpectralRow& row, double* __restrict rate, double* __restrict rate_old,
-                  double* __restrict increment_old) {
+                  double* __restrict increment_old, const double* __restrict correction, double correction_factor) {
   const double w = row.ratio, gain = (1 + 2 * w) / (1 + w) - 1, memory = w * w / (1 + w), inv_z0 = 1 / row.blend;
   for (int e = 0; e < 2 * row.modes; e++) {
     const double k2 = row.kx2[e] + row.k2, z = row.dt * k2 * (row.stiffness * k2 + row.tension);
     const double theta = row.least_history + (1 - row.least_history) / (1 + z * inv_z0);
     const double r = rate[e] * row.scale * row.inv_symbol[e];
-    const double d = (row.dt * (r + theta * w * (r - rate_old[e])) + theta * (memory + w * z) * increment_old[e]) /
-                     (1 + theta * gain + z);
+    const double last = increment_old[e] + correction_factor * correction[e];
+    const double d =
+      (row.dt * (r + theta * w * (r - rate_old[e])) + theta * (memory + w * z) * last) / (1 + theta * gain + z);
     rate_old[e] = r;
     increment_old[e] = d;
     rate[e] = d;
+  }
+}
+
+void euler_row(const SpectralRow& row, double* __restrict rate) {
+  for (int e = 0; e < 2 * row.modes; e++) {
+    const double k2 = row.kx2[e] + row.k2, z = row.dt * k2 * (row.stiffness * k2 + row.tension);
+    rate[e] *= row.dt * row.scale * row.inv_symbol[e] / (1 + z);
   }
 }
 
@@ -291,6 +299,6 @@ void spectral_row(const SpectralRow& row, double* __restrict rate, double* __res
 #define LAMELLA_STRING(x) LAMELLA_STRING_OF(x)
 
 extern const Kernels table;
-const Kernels table = {LAMELLA_STRING(LAMELLA_ISA), nodal_plane, closest_points, curvatures, jets, cubic, spectral_row};
+const Kernels table = {LAMELLA_STRING(LAMELLA_ISA), nodal_plane, closest_points, curvatures, jets, cubic, spectral_row, euler_row};
 
 } // namespace lamella::LAMELLA_ISA
