@@ -73,6 +73,7 @@ void Simulation::locate() {
   phi_.update_nodal();
   band_.update(phi_);
   surface_.sample(band_);
+  extension_.prepare(band_, surface_.sampled());
   if (surface_.size() == 0) throw RunError("the membrane has disappeared");
 }
 
@@ -91,9 +92,9 @@ void Simulation::project() {
     p.y[s] += d * n[1];
     p.z[s] += d * n[2];
   }
-  extension_.complete(band_, surface_.sampled(), 0, work_);
+  extension_.complete(0, work_);
   std::span<double> c = phi_.coefficients();
-  for (std::size_t s = 0; s < band_.size(); s++) c[band_.node()[s]] -= band_.taper(band_.distance()[s]) * work_[s];
+  for (std::size_t s = 0; s < band_.size(); s++) c[band_.node()[s]] -= band_.taper()[s] * work_[s];
 }
 
 void Simulation::measure_forces() {
@@ -165,7 +166,7 @@ double Simulation::next_dt() const { return choose_dt(1e300); }
 template <class Velocity> void Simulation::extend_rates(Velocity&& v) {
   work_.resize(band_.size());
   for (std::size_t i = 0; i < surface_.size(); i++) work_[surface_.entry()[i]] = -v(i) * surface_.grad()[i];
-  extension_.complete(band_, surface_.sampled(), 0, work_);
+  extension_.complete(0, work_);
   extension_.fill(band_, work_);
 }
 
@@ -243,7 +244,7 @@ void Simulation::renormalise_if_needed() {
   const GaugeRange range = gauge_range(band_, grad_);
   if (std::max(range.greatest, 1 / range.least) < gauge_limit) return;
   if (steps_ - renormalised_ < steps_between_renormalisations) return;
-  extension_.complete(band_, surface_.sampled(), range.mean, grad_);
+  extension_.complete(range.mean, grad_);
   stepper_.rescale(gauge_.renormalise(phi_, band_, grad_, extension_, fourier_));
   renormalised_ = steps_;
   measure();

@@ -50,6 +50,7 @@ void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourt
 void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t end) {
   const double h = grid_.spacing, longest = 0.5 * h, KM_limit = 2 / h, K_limit = 1 / (h * h);
   const Points p = band.points();
+  const ConstPoints node = band.positions();
   for (std::size_t i = begin; i < end; i++) {
     const int s = entry_[i];
     KM_[i] = std::clamp(KM_[i], -KM_limit, KM_limit);
@@ -58,8 +59,7 @@ void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t en
     p.x[s] = x_[i] += move * nx_[i];
     p.y[s] = y_[i] += move * ny_[i];
     p.z[s] = z_[i] += move * nz_[i];
-    const Vec3 node = grid_.position(band.node()[s]);
-    const double d = (node[0] - x_[i]) * nx_[i] + (node[1] - y_[i]) * ny_[i] + (node[2] - z_[i]) * nz_[i];
+    const double d = (node.x[s] - x_[i]) * nx_[i] + (node.y[s] - y_[i]) * ny_[i] + (node.z[s] - z_[i]) * nz_[i];
     weight_[i] = QuadratureKernel::weight(d, KM_[i], K_[i], h);
   }
 }

@@ -43,32 +43,50 @@ Extension::Extension(const Grid& grid) : grid_(grid) {
   }
 }
 
-void Extension::complete(const NarrowBand& band, std::span<const char> known, double fallback,
-                         std::span<double> value) const {
+void Extension::prepare(const NarrowBand& band, std::span<const char> known) {
+  borrowers_.clear();
+  for (std::size_t s = 0; s < band.size(); s++)
+    if (!known[s]) borrowers_.push_back({int(s), {}, {}});
   const ConstPoints p = band.points();
-  parallel_for(band.size(), 512, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; s++) {
-      if (known[s]) continue;
-      const double at[3] = {p.x[s], p.y[s], p.z[s]};
+  const double inv_h = 1 / grid_.spacing, origin[3] = {grid_.origin(0), grid_.origin(1), grid_.origin(2)};
+  parallel_for(borrowers_.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; b++) {
+      Borrower& borrower = borrowers_[b];
+      const double at[3] = {p.x[borrower.entry], p.y[borrower.entry], p.z[borrower.entry]};
       int base[3];
-      double t[3];
+      double t[3], sum = 0;
       bool inside = true;
       for (int d = 0; d < 3; d++) {
-        const double r = (at[d] - grid_.origin(d)) / grid_.spacing;
+        const double r = (at[d] - origin[d]) * inv_h;
         base[d] = int(std::floor(r));
         t[d] = r - base[d];
         inside = inside && base[d] >= 0 && base[d] + 1 < grid_.nodes[d];
       }
-      double weight = 0, sum = 0;
       for (int corner = 0; inside && corner < 8; corner++) {
         const int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
         const int m = band.slot(grid_.index(base[0] + dx, base[1] + dy, base[2] + dz));
         if (m < 0 || !known[m]) continue;
-        const double w = (dx ? t[0] : 1 - t[0]) * (dy ? t[1] : 1 - t[1]) * (dz ? t[2] : 1 - t[2]);
-        weight += w;
-        sum += w * value[m];
+        borrower.corner[corner] = m;
+        borrower.weight[corner] = (dx ? t[0] : 1 - t[0]) * (dy ? t[1] : 1 - t[1]) * (dz ? t[2] : 1 - t[2]);
+        sum += borrower.weight[corner];
       }
-      value[s] = weight > 0 ? sum / weight : fallback;
+      if (sum > 0)
+        for (double& w : borrower.weight) w /= sum;
+    }
+  });
+}
+
+void Extension::complete(double fallback, std::span<double> value) const {
+  parallel_for(borrowers_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; b++) {
+      const Borrower& borrower = borrowers_[b];
+      double sum = 0, weight = 0;
+      for (int corner = 0; corner < 8; corner++) {
+        if (borrower.weight[corner] == 0) continue; // its corner may hold no value
+        sum += borrower.weight[corner] * value[borrower.corner[corner]];
+        weight += borrower.weight[corner];
+      }
+      value[borrower.entry] = weight > 0 ? sum : fallback;
     }
   });
 }
@@ -76,7 +94,6 @@ void Extension::complete(const NarrowBand& band, std::span<const char> known, do
 void Extension::fill(const NarrowBand& band, std::span<const double> value) {
   band_ = &band;
   tapered_.resize(band.size());
-  taper_.resize(band.size());
   Level& first = levels_.front();
   const std::size_t plane = std::size_t(first.nodes[0]) * first.nodes[1];
   parallel_for(first.nodes[2], 1, [&](std::size_t k, std::size_t) {
@@ -84,12 +101,12 @@ void Extension::fill(const NarrowBand& band, std::span<const double> value) {
     std::fill_n(v, plane, 0.0);
     std::fill_n(w, plane, 0.0);
     for (int s = band.plane_begin(int(2 * k)); s < band.plane_begin(int(2 * k) + 2); s++) {
-      taper_[s] = band.taper(band.distance()[s]);
-      tapered_[s] = taper_[s] * value[s];
+      const double taper = band.taper()[s];
+      tapered_[s] = taper * value[s];
       const int node = band.node()[s], i = node % grid_.nx(), j = node / grid_.nx() % grid_.ny();
       const std::size_t cell = std::size_t(j / 2) * first.nodes[0] + i / 2;
       v[cell] += tapered_[s];
-      w[cell] += taper_[s];
+      w[cell] += taper;
     }
     for (std::size_t i = 0; i < plane; i++) {
       const double f = w[i] > 1 ? 1 / w[i] : 1;
@@ -149,7 +166,7 @@ void Extension::plane(int k, double* out) const {
   const std::size_t first = std::size_t(k) * grid_.nx() * grid_.ny();
   for (int s = band_->plane_begin(k); s < band_->plane_begin(k + 1); s++) {
     double& v = out[band_->node()[s] - first];
-    v = tapered_[s] + (1 - taper_[s]) * v;
+    v = tapered_[s] + (1 - band_->taper()[s]) * v;
   }
 }
 

@@ -11,9 +11,12 @@ class Extension {
 public:
   explicit Extension(const Grid& grid);
 
-  /// Band values where `known` is 0: linear interpolation, at the node's nearest point, of the known values
-  /// around it (`fallback` where there are none).
-  void complete(const NarrowBand& band, std::span<const char> known, double fallback, std::span<double> value) const;
+  /// Notes which band entries have values of their own (known != 0) and where the others find theirs.
+  void prepare(const NarrowBand& band, std::span<const char> known);
+
+  /// Values of the other entries: linear interpolation, at the node's nearest point, of the known values around
+  /// it; `fallback` where there are none.
+  void complete(double fallback, std::span<double> value) const;
 
   /// Prepares plane(): values of the band, tapered at its edge, and beyond it averages over ever larger cubes
   /// (a push-pull pyramid, cell centred, hence mirror symmetric).
@@ -28,13 +31,19 @@ private:
     Array<double> value, weight;
     std::size_t row(int j, int k) const { return (std::size_t(k) * nodes[1] + j) * nodes[0]; }
   };
+  /// An entry without a value of its own: weighted sum of the corners of the cell that its nearest point is in.
+  struct Borrower {
+    int entry, corner[8];
+    double weight[8];
+  };
   void push(const Level& fine, Level& coarse) const;
   void pull(const Level& coarse, Level& fine) const;
 
   Grid grid_;
   std::vector<Level> levels_; // 2, 4, 8 ... nodes of the grid a cell
   const NarrowBand* band_ = nullptr;
-  std::vector<double> tapered_, taper_;
+  std::vector<double> tapered_;
+  std::vector<Borrower> borrowers_;
 };
 
 } // namespace lamella

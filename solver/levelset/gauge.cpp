@@ -8,7 +8,7 @@
 namespace lamella {
 
 namespace {
-constexpr double filter_strength = 1; // 2 is the limit of stability
+constexpr double filter_strength = 1.4; // 2 is the limit of stability
 constexpr std::size_t chunk = 512;
 
 /// sum_d delta_d^4 c at a node, periodic.
@@ -37,7 +37,7 @@ void Gauge::filter(LevelSet& phi, const NarrowBand& band) {
   at_point_.resize(band.size());
   parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++)
-      change_[node[s]] = -filter_strength / 48 * band.taper(band.distance()[s]) *
+      change_[node[s]] = -filter_strength / 48 * band.taper()[s] *
                          fourth_differences(phi.grid(), c.data(), node[s]);
   });
   SplineView change = phi.view();
@@ -48,7 +48,7 @@ void Gauge::filter(LevelSet& phi, const NarrowBand& band) {
   });
   parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++) {
-      c[node[s]] += change_[node[s]] - band.taper(band.distance()[s]) * at_point_[s];
+      c[node[s]] += change_[node[s]] - band.taper()[s] * at_point_[s];
       change_[node[s]] = 0;
     }
   });

@@ -26,46 +26,33 @@ template <class F> void for_each_neighbour(const Grid& grid, int node, F&& f) {
   if (k < grid.nz() - 1) f(node + nxy);
 }
 
+double square(double x) { return x * x; }
+
+double distance2(const Grid& grid, int node, const double* p) {
+  const Vec3 x = grid.position(node);
+  return square(x[0] - p[0]) + square(x[1] - p[1]) + square(x[2] - p[2]);
+}
+
 } // namespace
 
 NarrowBand::NarrowBand(const Grid& grid, double half_width)
     : grid_(grid), half_width_(half_width), slot_(grid.size(), unset), plane_begin_(grid.nz() + 1, 0) {}
 
-double NarrowBand::taper(double distance) const {
-  const double s = std::abs(distance) / grid_.spacing;
-  if (s < taper_start) return 1;
-  if (s > half_width_) return 0;
-  const double u = (half_width_ - s) / (half_width_ - taper_start);
-  return u * u * (3 - 2 * u);
-}
-
-double NarrowBand::distance2(int node, const double* p) const {
-  const Vec3 x = grid_.position(node);
-  return (x[0] - p[0]) * (x[0] - p[0]) + (x[1] - p[1]) * (x[1] - p[1]) + (x[2] - p[2]) * (x[2] - p[2]);
-}
-
 void NarrowBand::update(const LevelSet& phi) {
   refresh(phi);
   repair(phi);
   grow(phi);
+  finish(phi);
 }
 
 /// One Newton step for every node that was in the band.
 void NarrowBand::refresh(const LevelSet& phi) {
-  distance_.resize(size());
   parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
-    double x[3][chunk], step[chunk];
-    const std::size_t n = end - begin;
-    for (std::size_t s = 0; s < n; s++) {
-      const Vec3 at = grid_.position(node_[begin + s]);
-      for (int d = 0; d < 3; d++) x[d][s] = at[d];
-    }
-    kernels().closest_points(phi.view(), n, {x[0], x[1], x[2]}, {&px_[begin], &py_[begin], &pz_[begin]}, 1, false,
-                             step);
-    for (std::size_t s = begin; s < end; s++) {
-      const double p[3] = {px_[s], py_[s], pz_[s]};
-      distance_[s] = std::sqrt(distance2(node_[s], p));
-    }
+    double step[chunk];
+    kernels().closest_points(phi.view(), end - begin, {&x_[begin], &y_[begin], &z_[begin]},
+                             {&px_[begin], &py_[begin], &pz_[begin]}, 1, false, step);
+    for (std::size_t s = begin; s < end; s++)
+      distance_[s] = std::sqrt(square(x_[s] - px_[s]) + square(y_[s] - py_[s]) + square(z_[s] - pz_[s]));
   });
 }
 
@@ -80,8 +67,8 @@ void NarrowBand::repair(const LevelSet& phi) {
       int from = unset;
       for_each_neighbour(grid_, node_[s], [&](int m) {
         const int t = slot_[m];
-        if (t == unset) return;
-        const double p[3] = {px_[t], py_[t], pz_[t]}, d2 = distance2(node_[s], p);
+        if (t == unset || distance_[t] > distance_[s]) return;
+        const double d2 = square(x_[s] - px_[t]) + square(y_[s] - py_[t]) + square(z_[s] - pz_[t]);
         if (d2 < nearest) {
           nearest = d2;
           from = t;
@@ -119,7 +106,7 @@ void NarrowBand::solve(const LevelSet& phi, std::vector<Entry>& entries, int ite
     for (std::size_t s = 0; s < n; s++) {
       Entry& e = entries[begin + s];
       for (int d = 0; d < 3; d++) e.p[d] = p[d][s];
-      e.distance = std::sqrt(distance2(e.node, e.p));
+      e.distance = std::sqrt(distance2(grid_, e.node, e.p));
     }
   });
 }
@@ -168,7 +155,7 @@ std::vector<NarrowBand::Entry> NarrowBand::neighbours(std::span<const Entry> fro
       if (e.distance > reach) continue;
       for_each_neighbour(grid_, e.node, [&](int m) {
         if (slot_[m] != unset) return;
-        const double d = std::sqrt(distance2(m, e.p));
+        const double d = std::sqrt(distance2(grid_, m, e.p));
         if (d <= reach) found[begin / chunk].push_back({m, {e.p[0], e.p[1], e.p[2]}, d});
       });
     }
@@ -201,44 +188,60 @@ void NarrowBand::grow(const LevelSet& phi) {
     frontier = std::move(candidates);
     candidates.clear();
   }
-  rebuild(phi, added);
+  rebuild(added);
 }
 
 /// Drop nodes out of reach, take in the new ones, and keep everything in the order of the grid.
-void NarrowBand::rebuild(const LevelSet& phi, std::vector<Entry>& added) {
+void NarrowBand::rebuild(std::vector<Entry>& added) {
   const double reach = half_width_ * grid_.spacing;
+  if (added.empty() && std::all_of(distance_.begin(), distance_.end(), [=](double d) { return d <= reach; })) return;
   std::sort(added.begin(), added.end(), [](const Entry& a, const Entry& b) { return a.node < b.node; });
-  const bool grows = !added.empty();
-  std::vector<int> node;
-  Array<double> p[3], distance;
-  auto take = [&](int n, double x, double y, double z, double d) {
-    slot_[n] = unset;
-    if (d > reach) return;
-    slot_[n] = int(node.size());
-    node.push_back(n);
-    p[0].push_back(x);
-    p[1].push_back(y);
-    p[2].push_back(z);
-    distance.push_back(phi.nodal()[n] < 0 ? -d : d);
-  };
-  node.reserve(size() + added.size());
+  std::vector<Entry> kept;
+  kept.reserve(size() + added.size());
   std::size_t a = 0;
   for (std::size_t s = 0; s < size(); s++) {
-    for (; grows && a < added.size() && added[a].node < node_[s]; a++)
-      take(added[a].node, added[a].p[0], added[a].p[1], added[a].p[2], added[a].distance);
-    take(node_[s], px_[s], py_[s], pz_[s], distance_[s]);
+    for (; a < added.size() && added[a].node < node_[s]; a++) kept.push_back(added[a]);
+    kept.push_back({node_[s], {px_[s], py_[s], pz_[s]}, distance_[s]});
   }
-  for (; a < added.size(); a++) take(added[a].node, added[a].p[0], added[a].p[1], added[a].p[2], added[a].distance);
-  node_.swap(node);
-  px_.swap(p[0]);
-  py_.swap(p[1]);
-  pz_.swap(p[2]);
-  distance_.swap(distance);
+  kept.insert(kept.end(), added.begin() + std::ptrdiff_t(a), added.end());
+  for (const Entry& e : kept) slot_[e.node] = unset;
+  std::erase_if(kept, [=](const Entry& e) { return e.distance > reach; });
+
+  const std::size_t n = kept.size();
+  node_.resize(n);
+  for (auto* array : {&x_, &y_, &z_, &px_, &py_, &pz_, &distance_, &taper_}) array->resize(n);
+  parallel_for(n, chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; s++) {
+      const Entry& e = kept[s];
+      const Vec3 at = grid_.position(e.node);
+      slot_[e.node] = int(s);
+      node_[s] = e.node;
+      x_[s] = at[0];
+      y_[s] = at[1];
+      z_[s] = at[2];
+      px_[s] = e.p[0];
+      py_[s] = e.p[1];
+      pz_[s] = e.p[2];
+      distance_[s] = e.distance;
+    }
+  });
   const int plane = grid_.nx() * grid_.ny();
   for (int k = 0, s = 0; k <= grid_.nz(); k++) {
-    while (s < int(size()) && node_[s] < k * plane) s++;
+    while (s < int(n) && node_[s] < k * plane) s++;
     plane_begin_[k] = s;
   }
+}
+
+/// Signs of the distances, and the taper.
+void NarrowBand::finish(const LevelSet& phi) {
+  parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; s++) {
+      const double d = distance_[s] / grid_.spacing;
+      const double u = std::clamp((half_width_ - d) / (half_width_ - taper_start), 0.0, 1.0);
+      taper_[s] = u * u * (3 - 2 * u);
+      if (phi.nodal()[node_[s]] < 0) distance_[s] = -distance_[s];
+    }
+  });
 }
 
 } // namespace lamella

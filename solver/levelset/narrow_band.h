@@ -29,6 +29,8 @@ public:
   int slot(std::size_t node) const { return slot_[node]; }
   std::span<const int> slots() const { return slot_; }
 
+  /// The nodes' own positions, by coordinate.
+  ConstPoints positions() const { return {x_.data(), y_.data(), z_.data()}; }
   /// Nearest points, by coordinate.
   ConstPoints points() const { return {px_.data(), py_.data(), pz_.data()}; }
   Points points() { return {px_.data(), py_.data(), pz_.data()}; }
@@ -36,7 +38,7 @@ public:
   std::span<const double> distance() const { return distance_; }
 
   /// 1 on the membrane and near it, falling smoothly to 0 at the edge of the band.
-  double taper(double distance) const;
+  std::span<const double> taper() const { return taper_; }
 
 private:
   struct Entry {
@@ -50,13 +52,13 @@ private:
   void solve(const LevelSet& phi, std::vector<Entry>& entries, int iterations) const;
   std::vector<Entry> seeds(const LevelSet& phi) const;
   std::vector<Entry> neighbours(std::span<const Entry> frontier) const;
-  void rebuild(const LevelSet& phi, std::vector<Entry>& added);
-  double distance2(int node, const double* p) const;
+  void rebuild(std::vector<Entry>& added);
+  void finish(const LevelSet& phi);
 
   Grid grid_;
   double half_width_;
   std::vector<int> node_, slot_, plane_begin_;
-  Array<double> px_, py_, pz_, distance_;
+  Array<double> x_, y_, z_, px_, py_, pz_, distance_, taper_;
 };
 
 } // namespace lamella
