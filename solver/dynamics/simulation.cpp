@@ -19,6 +19,7 @@ constexpr int most_projections = 8;
 constexpr double force_limit = 0.3;      // kappa / h^3: more is noise of an unresolved tip
 constexpr double gauge_limit = 1.6;      // |grad phi| over its mean
 constexpr int steps_between_renormalisations = 5;
+constexpr int steps_between_responses = 4;
 constexpr int fit_sweeps = 60;
 constexpr double margin = 4; // spacings kept free at the sides of the box: half the spline's support
 
@@ -208,8 +209,11 @@ void Simulation::step(double latest) {
   gauge_.filter(phi_, band_);
   extend_rates([&](std::size_t i) { return velocity(i); });
   stepper_.predict(extension_, dt, {kappa, std::max(0.0, multipliers_.sigma + 0.5 * kappa * C * C)});
-  extend_rates([&](std::size_t i) { return surface_.KM()[i]; });
-  stepper_.respond(extension_);
+  if (steps_ % steps_between_responses == 0 || dt > 1.5 * response_dt_ || 1.5 * dt < response_dt_) {
+    extend_rates([&](std::size_t i) { return surface_.KM()[i]; });
+    stepper_.respond(extension_);
+    response_dt_ = dt;
+  }
   apply_constrained();
   error_ = step_error();
   steps_++;
