@@ -1,8 +1,8 @@
 #include "parallel.h"
 
 #include <memory>
-#include <mutex>
-#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,10 +14,13 @@ namespace {
 // has not been scheduled yet. With one of two cores busy an OpenMP team was several times slower than
 // one thread (see docs/numerics.md).
 std::unique_ptr<tbb::task_arena> arena = std::make_unique<tbb::task_arena>();
+std::unique_ptr<tbb::global_control> more_than_cores; // TBB starts no more threads than there are cores unless told
 
 } // namespace
 
 void set_thread_count(int threads) {
+  if (threads > tbb::info::default_concurrency())
+    more_than_cores = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
   arena = std::make_unique<tbb::task_arena>(threads > 0 ? threads : int(tbb::task_arena::automatic));
 }
 

@@ -15,13 +15,13 @@ namespace lamella {
 namespace {
 constexpr double band_half_width = 4.2;  // spacings: the spline's reach and a little more
 constexpr double worst_drift = 2e-6;     // relative error of volume and area that a recorded state may have
+constexpr double hopeless_drift = 1e-5;  // more cannot be recorded: the run stops
 constexpr int most_projections = 8;
-constexpr double force_limit = 0.3;      // kappa / h^3: more is noise of an unresolved tip
+constexpr double force_limit = 1;        // kappa / h^3: more is an unresolved tip
 constexpr double gauge_limit = 1.6;      // |grad phi| over its mean
 constexpr int steps_between_renormalisations = 5;
 constexpr int steps_between_responses = 4;
-constexpr int fit_sweeps = 60;
-constexpr double margin = 4; // spacings kept free at the sides of the box: half the spline's support
+constexpr double margin = 2.75; // spacings kept free at the sides of the box: the reach of the quadrature kernel
 
 double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 } // namespace
@@ -34,7 +34,7 @@ Simulation::Simulation(const Scene& scene)
       gauge_(scene.grid()), stepper_(scene.grid(), fourier_) {
   const std::vector<double> start = initial_phi(scene.shape, scene.grid());
   std::copy(start.begin(), start.end(), phi_.coefficients().begin());
-  phi_.fit(start, fourier_, fit_sweeps);
+  phi_.fit(start, fourier_);
   area_ = exact_area(scene.shape);
   volume_ = exact_volume(scene.shape);
   measure();
@@ -144,6 +144,9 @@ void Simulation::check(const Measures& m) const {
   for (double value : {m.energy, m.int_KM2, m.P, m.sigma, m.area, m.volume, m.max_speed})
     if (!std::isfinite(value)) throw RunError("a measured value is not finite");
   if (!(m.volume > 0 && m.area > 0)) throw RunError("the membrane no longer encloses a volume");
+  if (drift() > hopeless_drift)
+    throw RunError("volume and area can no longer be kept: somewhere the membrane is thinner than the grid can "
+                   "resolve; try more grid.nodes");
   for (std::size_t i = 0; i < surface_.size(); i++) {
     const Vec3 p = surface_.point(i);
     for (int d = 0; d < 3; d++)

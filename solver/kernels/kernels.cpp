@@ -1,37 +1,44 @@
 #include "kernels/kernels.h"
 
 #include <cstdlib>
-#include <cstring>
+#include <string_view>
 
 namespace lamella {
 
-namespace baseline { extern const Kernels table; }
+namespace baseline {
+extern const Kernels table;
+}
 #ifdef LAMELLA_X86_KERNELS
-namespace avx2 { extern const Kernels table; }
-namespace avx512 { extern const Kernels table; }
+namespace avx2 {
+extern const Kernels table;
+}
+namespace avx512 {
+extern const Kernels table;
+}
 #endif
 
-namespace {
-
-const Kernels& choose() {
+std::vector<const Kernels*> available_kernels() {
+  std::vector<const Kernels*> available{&baseline::table};
 #ifdef LAMELLA_X86_KERNELS
-  const bool avx2_here = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  const bool avx512_here = avx2_here && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-                           __builtin_cpu_supports("avx512cd");
-  const char* wish = std::getenv("LAMELLA_KERNELS");
-  const bool baseline_wanted = wish && !std::strcmp(wish, "baseline"), avx2_wanted = wish && !std::strcmp(wish, "avx2");
-  if (avx512_here && !baseline_wanted && !avx2_wanted) return avx512::table;
-  if (avx2_here && !baseline_wanted) return avx2::table;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    available.push_back(&avx2::table);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd"))
+      available.push_back(&avx512::table);
+  }
 #endif
-  return baseline::table;
+  return available;
 }
 
-} // namespace
-
 const Kernels& kernels() {
-  static const Kernels& best = choose();
-  return best;
+  static const Kernels& chosen = []() -> const Kernels& {
+    const std::vector<const Kernels*> available = available_kernels();
+    const char* wish = std::getenv("LAMELLA_KERNELS");
+    for (const Kernels* k : available)
+      if (wish && std::string_view(wish) == k->name) return *k;
+    return *available.back();
+  }();
+  return chosen;
 }
 
 } // namespace lamella

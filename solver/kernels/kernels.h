@@ -1,6 +1,6 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
+#include <vector>
 
 /// The inner loops, compiled once for each instruction set and chosen when the program starts.
 /// They know arrays and numbers only; what the numbers mean is said in levelset/ and geometry/.
@@ -78,5 +78,8 @@ struct Kernels {
 
 /// The best kernels for this CPU; LAMELLA_KERNELS=baseline|avx2|avx512 in the environment overrides.
 const Kernels& kernels();
+
+/// All that this CPU can run, the best one last.
+std::vector<const Kernels*> available_kernels();
 
 } // namespace lamella

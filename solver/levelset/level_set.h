@@ -25,9 +25,10 @@ public:
 
   void update_nodal();
 
-  /// Coefficients whose nodal values are `values`, up to grid-scale content that the spline would turn into
-  /// ringing: the limit of `sweeps` sweeps c <- c + (values - nodal(c)), done at once in Fourier space.
-  void fit(std::span<const double> values, Fourier& fourier, int sweeps);
+  /// Coefficients whose nodal values are `values`, but for grid-scale content (kinks far from the membrane), which
+  /// the spline would turn into ringing: the result of `sweeps` sweeps c <- c + (values - nodal(c)), found at once
+  /// in Fourier space.
+  void fit(std::span<const double> values, Fourier& fourier, int sweeps = 15);
 
 private:
   Grid grid_;

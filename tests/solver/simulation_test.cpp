@@ -1,0 +1,261 @@
+// Whole runs against exact solutions and identities.
+#include "dynamics/simulation.h"
+#include "error.h"
+#include "levelset/topology.h"
+#include "parallel.h"
+#include "start_surface.h"
+
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace lamella {
+namespace {
+
+Scene scene_of(const Shape& shape, int nodes, double end_time) {
+  Scene scene;
+  scene.shape = shape;
+  scene.nodes = {nodes, nodes, nodes};
+  scene.end_time = end_time;
+  return scene;
+}
+
+std::vector<Measures> run(const Scene& scene) {
+  Simulation sim(scene);
+  std::vector<Measures> history{sim.measures()};
+  while (sim.time() < scene.end_time) {
+    sim.step(scene.end_time);
+    history.push_back(sim.measures());
+  }
+  return history;
+}
+
+/// Rows of numbers of a file in data/reference.
+std::vector<std::vector<double>> reference(const std::string& name) {
+  std::ifstream file(std::string(LAMELLA_SOURCE_DIR "/data/reference/") + name);
+  EXPECT_TRUE(file) << name;
+  std::vector<std::vector<double>> rows;
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::stringstream cells(line);
+    std::vector<double> row;
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Column `column` at x, linear in the first column, whichever way that runs.
+double interpolated(const std::vector<std::vector<double>>& rows, double x, int column) {
+  for (std::size_t i = 1; i < rows.size(); i++) {
+    const double a = rows[i - 1][0], b = rows[i][0];
+    if ((x - a) * (x - b) > 0) continue;
+    const double t = (x - a) / (b - a);
+    return (1 - t) * rows[i - 1][column] + t * rows[i][column];
+  }
+  ADD_FAILURE() << x << " is outside the table";
+  return 0;
+}
+
+double worst_drift(const std::vector<Measures>& history) {
+  double worst = 0;
+  for (const Measures& m : history) worst = std::max({worst, std::abs(m.area_drift), std::abs(m.volume_drift)});
+  return worst;
+}
+
+double largest_rise(const std::vector<Measures>& history) {
+  double rise = 0;
+  for (std::size_t i = 1; i < history.size(); i++) rise = std::max(rise, history[i].energy - history[i - 1].energy);
+  return rise;
+}
+
+/// Scale invariance of the bending energy at rest: 3 P V = 2 sigma A.
+double virial_ratio(const Measures& m) { return 3 * m.P * m.volume / (2 * m.sigma * m.area); }
+
+TEST(Relaxation, OblateFollowsTheExactSolution) {
+  const auto exact = reference("relaxation_oblate_v0.6.csv");
+  const std::vector<Measures> history = run(scene_of(oblate(0.7, 0.6), 64, 1.6e-3));
+  for (const Measures& m : history) {
+    if (m.time < 1e-5) continue;
+    EXPECT_NEAR(m.int_KM2 / interpolated(exact, m.time, 1), 1, 5e-3) << "t = " << m.time;
+  }
+  const Measures& end = history.back();
+  EXPECT_NEAR(end.int_KM2, 98.3035, 0.02);
+  EXPECT_NEAR(end.P, -106.147, 0.15);
+  EXPECT_NEAR(end.sigma, -16.806, 0.06);
+  EXPECT_NEAR(virial_ratio(end), 1, 0.02);
+  EXPECT_LE(worst_drift(history), 1e-5);
+  EXPECT_LE(largest_rise(history), 1e-9);
+  EXPECT_EQ(end.components, 1);
+  EXPECT_EQ(end.genus, 0);
+}
+
+TEST(Relaxation, OblateTimeMeansMatchTable1) { // means over (1e-3, 1.6e-3)
+  double E = 0, P = 0, sigma = 0, time = 0;
+  for (const Measures& m : run(scene_of(oblate(0.7, 0.6), 64, 1.6e-3))) {
+    if (m.time <= 1e-3) continue;
+    E += m.dt * m.int_KM2;
+    P += m.dt * m.P;
+    sigma += m.dt * m.sigma;
+    time += m.dt;
+  }
+  EXPECT_NEAR(E / time, 98.3073, 0.02);
+  EXPECT_NEAR(P / time, -106.2187, 0.15);
+  EXPECT_NEAR(sigma / time, -16.7659, 0.06);
+}
+
+TEST(Relaxation, CoarseGridsStayAccurate) {
+  for (int nodes : {32, 48}) {
+    const Measures end = run(scene_of(oblate(0.7, 0.6), nodes, 1.6e-3)).back();
+    EXPECT_NEAR(end.int_KM2, 98.3035, 0.02) << nodes;
+    EXPECT_NEAR(end.P, -106.147, 0.15) << nodes;
+    EXPECT_NEAR(end.sigma, -16.806, 0.06) << nodes;
+  }
+}
+
+TEST(Relaxation, ProlateReachesTheExactEquilibrium) {
+  const std::vector<Measures> history = run(scene_of(prolate(0.7, 0.6), 64, 6e-3));
+  const Measures& end = history.back();
+  EXPECT_NEAR(end.int_KM2, 103.5612, 0.03);
+  EXPECT_NEAR(end.P, -1647.01, 3);
+  EXPECT_NEAR(end.sigma, -131.715, 0.3);
+  EXPECT_NEAR(virial_ratio(end), 1, 0.02);
+  EXPECT_LE(worst_drift(history), 1e-5);
+}
+
+TEST(Relaxation, OtherReducedVolumesReachTheirEquilibria) {
+  struct {
+    Shape shape;
+    const char* table;
+    double v, end_time;
+  } const cases[] = {{oblate(0.6, 0.9), "single_phase_oblate.csv", 0.9, 4e-3},
+                     {oblate(0.6, 0.75), "single_phase_oblate.csv", 0.75, 4e-3},
+                     {prolate(0.7, 0.85), "single_phase_prolate.csv", 0.85, 1.5e-2}};
+  for (const auto& c : cases) {
+    const auto exact = reference(c.table);
+    const Measures end = run(scene_of(c.shape, 48, c.end_time)).back();
+    const double R = std::sqrt(end.area / (4 * M_PI));
+    EXPECT_NEAR(end.int_KM2, interpolated(exact, c.v, 2), 0.02) << c.v;
+    EXPECT_NEAR(end.P * R * R * R / interpolated(exact, c.v, 3), 1, 0.01) << c.v;
+    EXPECT_NEAR(end.sigma * R * R / interpolated(exact, c.v, 4), 1, 0.01) << c.v;
+    EXPECT_NEAR(end.area_difference, interpolated(exact, c.v, 5), 2e-3) << c.v;
+  }
+}
+
+TEST(Relaxation, DoesNotDependOnPlaceAndOrientation) {
+  const double h = 2. / 64;
+  const Shape start = oblate(0.7, 0.6);
+  const double aligned = run(scene_of(start, 64, 1.6e-3)).back().energy;
+  for (const Shape& s : {moved(start, {0.37 * h, -0.21 * h, 0.45 * h}, 0), moved(start, {0, 0, 0}, 0.7),
+                         moved(start, {0.2 * h, 0.5 * h, -0.3 * h}, 38)})
+    EXPECT_NEAR(run(scene_of(s, 64, 1.6e-3)).back().energy / aligned, 1, 5e-4);
+}
+
+TEST(Relaxation, ScalesWithBendingModulusAndLength) {
+  const Measures unit = run(scene_of(oblate(0.6, 0.8), 32, 1e-3)).back();
+  Scene scaled = scene_of(oblate(1.2, 0.8), 32, 16e-3 / 5); // twice as long, five times as stiff
+  scaled.half_width = 2;
+  scaled.membrane.bending_modulus = 5;
+  const Measures m = run(scaled).back();
+  EXPECT_NEAR(m.energy, 5 * unit.energy, 1e-6 * m.energy);
+  EXPECT_NEAR(m.P, 5. / 8 * unit.P, 1e-4 * std::abs(m.P));
+  EXPECT_NEAR(m.sigma, 5. / 4 * unit.sigma, 1e-4 * std::abs(m.sigma));
+}
+
+TEST(Relaxation, SpontaneousCurvatureLowersItsOwnEnergy) {
+  Scene scene = scene_of(oblate(0.6, 0.9), 48, 5e-4);
+  scene.membrane.spontaneous_curvature = -8;
+  const std::vector<Measures> history = run(scene);
+  EXPECT_LE(largest_rise(history), 1e-6 * history.front().energy);
+  EXPECT_LT(history.back().energy, 0.99 * history.front().energy);
+  EXPECT_LE(worst_drift(history), 1e-5);
+}
+
+TEST(Relaxation, SphereStaysPut) {
+  const std::vector<Measures> history = run(scene_of(sphere(0.6), 32, 1e-2));
+  EXPECT_NEAR(history.back().energy, 8 * M_PI, 1e-3);
+  EXPECT_LT(history.back().max_speed * 1e-2, 0.1 * 2. / 32);
+  EXPECT_LE(worst_drift(history), 1e-5);
+}
+
+TEST(Relaxation, TorusKeepsItsHole) {
+  const std::vector<Measures> history = run(scene_of(torus(0.5, 0.2), 48, 2e-3));
+  EXPECT_EQ(history.back().genus, 1);
+  EXPECT_EQ(history.back().components, 1);
+  EXPECT_LE(largest_rise(history), 1e-9);
+  // On its way to the Clifford torus (v = 0.712), whose int K_M^2 is 8 pi^2; at v = 0.535 above it.
+  EXPECT_GT(history.back().int_KM2, 8 * M_PI * M_PI);
+}
+
+TEST(Relaxation, RunsInLongBoxes) {
+  Scene scene = scene_of(prolate(0.9, 0.7), 48, 1e-4);
+  scene.nodes = {32, 40, 64};
+  scene.half_width = 0.75;
+  const std::vector<Measures> history = run(scene);
+  EXPECT_LE(worst_drift(history), 1e-5);
+  EXPECT_LT(history.back().energy, history.front().energy);
+}
+
+TEST(Simulation, IsTheSameForAnyNumberOfThreads) {
+  const Scene scene = scene_of(moved(oblate(0.6, 0.7), {0.01, 0.02, 0}, 15), 32, 2e-4);
+  set_thread_count(1);
+  const std::vector<Measures> one = run(scene);
+  set_thread_count(3);
+  const std::vector<Measures> three = run(scene);
+  set_thread_count(0);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); i++) {
+    EXPECT_EQ(one[i].energy, three[i].energy);
+    EXPECT_EQ(one[i].P, three[i].P);
+    EXPECT_EQ(one[i].sigma, three[i].sigma);
+    EXPECT_EQ(one[i].dt, three[i].dt);
+  }
+}
+
+/// Runs until RunError, whose message must hold `words`, and checks that the last good state is still there.
+void expect_stop(const Scene& scene, const char* words) {
+  Simulation sim(scene);
+  Measures last = sim.measures();
+  try {
+    while (sim.time() < scene.end_time) {
+      sim.step(scene.end_time);
+      last = sim.measures();
+    }
+    ADD_FAILURE() << "ran to its end";
+  } catch (const RunError& e) {
+    EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+    EXPECT_GT(last.time, 0);
+    EXPECT_EQ(sim.measures().time, last.time);
+    const Frame frame = sim.frame();
+    EXPECT_EQ(frame.time, last.time);
+    EXPECT_GT(count_components(frame.grid, frame.phi), 0);
+    for (double v : frame.phi) ASSERT_TRUE(std::isfinite(v));
+  }
+}
+
+TEST(Simulation, StopsWhenTheMembraneReachesTheSideOfTheBox) {
+  Scene scene = scene_of(ellipsoid({0.8, 0.5, 0.2}), 40, 1e-3);
+  scene.membrane.spontaneous_curvature = -15; // arms grow out of the box
+  expect_stop(scene, "side of the box");
+}
+
+TEST(Simulation, StopsWhereTheGridNoLongerResolvesTheMembrane) {
+  Scene scene = scene_of(oblate(0.8, 0.5), 40, 1e-3);
+  scene.membrane.spontaneous_curvature = 15; // the film in the middle closes
+  expect_stop(scene, "thinner than the grid can resolve");
+}
+
+TEST(Simulation, LandsOnTheTimesAskedFor) {
+  const Scene scene = scene_of(oblate(0.6, 0.8), 32, 1e-3);
+  Simulation sim(scene);
+  for (double goal : {1e-6, 3.3e-5, 1e-4}) {
+    while (sim.time() < goal) sim.step(goal);
+    EXPECT_DOUBLE_EQ(sim.time(), goal);
+    EXPECT_DOUBLE_EQ(sim.frame().time, goal);
+  }
+}
+
+} // namespace
+} // namespace lamella

@@ -1,0 +1,74 @@
+#pragma once
+#include "geometry/surface_geometry.h"
+#include "scene/shapes.h"
+
+namespace lamella {
+
+/// A start shape as the solver sees it: level set, band, and samples with their geometry.
+struct StartSurface {
+  Grid grid;
+  Fourier fourier;
+  LevelSet phi;
+  NarrowBand band;
+  SurfaceGeometry geometry;
+
+  StartSurface(const Shape& shape, const Grid& g) : grid(g), fourier(g), phi(g), band(g, 4.2) {
+    const std::vector<double> start = initial_phi(shape, grid);
+    std::copy(start.begin(), start.end(), phi.coefficients().begin());
+    phi.fit(start, fourier);
+    measure();
+  }
+
+  void measure() {
+    phi.update_nodal();
+    band.update(phi);
+    geometry.sample(band);
+    geometry.jets(phi, band);
+  }
+};
+
+inline Shape sphere(double radius) {
+  Shape s;
+  s.kind = ShapeKind::sphere;
+  s.radius = radius;
+  return s;
+}
+
+inline Shape oblate(double semi_axis, double reduced_volume) {
+  Shape s;
+  s.kind = ShapeKind::oblate;
+  s.semi_axis = semi_axis;
+  s.reduced_volume = reduced_volume;
+  return s;
+}
+
+inline Shape prolate(double semi_axis, double reduced_volume) {
+  Shape s = oblate(semi_axis, reduced_volume);
+  s.kind = ShapeKind::prolate;
+  return s;
+}
+
+inline Shape ellipsoid(Vec3 semi_axes) {
+  Shape s;
+  s.kind = ShapeKind::ellipsoid;
+  s.semi_axes = semi_axes;
+  return s;
+}
+
+inline Shape torus(double ring_radius, double tube_radius) {
+  Shape s;
+  s.kind = ShapeKind::torus;
+  s.ring_radius = ring_radius;
+  s.tube_radius = tube_radius;
+  return s;
+}
+
+/// The shape somewhere between the nodes, turned by an angle (degrees) about (1, 2, 3).
+inline Shape moved(Shape s, Vec3 center, double angle) {
+  s.center = center;
+  s.rotation_axis = {1, 2, 3};
+  s.rotation_angle = angle;
+  return s;
+}
+
+} // namespace lamella
