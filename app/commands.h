@@ -6,16 +6,17 @@
 namespace lamella {
 
 struct RunOptions {
-  std::string scene;               ///< a file, or the name of a built-in scene
-  std::filesystem::path folder;    ///< empty: the scene's name in the current folder
-  std::vector<std::string> set;    ///< section.key=value
-  std::string backend = "auto";    ///< of the pictures
-  int threads = 0;                 ///< 0: all
-  bool force = false;              ///< replace an earlier run in the folder
+  std::string scene;            ///< a file, or the name of a built-in scene
+  std::filesystem::path folder; ///< empty: the scene's name in the current folder
+  std::vector<std::string> set; ///< section.key=value
+  std::string backend = "auto"; ///< of the pictures
+  int threads = 0;              ///< 0: all
+  bool force = false;           ///< replace an earlier run in the folder
   bool no_pictures = false;
 };
 
-/// Runs a scene and fills the folder. Returns an ExitCode; throws SceneError, StoreError, RunError.
+/// Runs a scene and fills the folder. Returns an ExitCode; throws UsageError, SceneError,
+/// StoreError.
 int run(const RunOptions& options);
 
 struct RenderCommandOptions {
@@ -24,10 +25,14 @@ struct RenderCommandOptions {
   int width = 0; ///< pixels; 0: the default of RenderOptions
 };
 
-/// Draws the pictures of a stored run again.
+/// Draws the pictures of a stored run and returns their files. Throws UsageError for a folder that
+/// holds no run, StoreError, RenderError.
+std::vector<std::filesystem::path> draw_pictures(const RenderCommandOptions& options);
+
+/// The same as a command: lists the files. Returns an ExitCode.
 int render(const RenderCommandOptions& options);
 
-/// Lists the built-in scenes, or prints one.
+/// Lists the built-in scenes, or prints one. Returns an ExitCode; throws SceneError.
 int show_scenes(const std::string& name);
 
 } // namespace lamella

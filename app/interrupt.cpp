@@ -7,15 +7,18 @@ namespace lamella {
 namespace {
 volatile std::sig_atomic_t requested = 0;
 
-void note(int signal) {
+constexpr int watched[]{SIGINT, SIGTERM, SIGHUP};
+
+void note(int) {
   requested = 1;
-  std::signal(signal, SIG_DFL);
+  for (const int signal : watched) std::signal(signal, SIG_DFL);
 }
 } // namespace
 
 void watch_for_interrupt() {
-  std::signal(SIGINT, note);
-  std::signal(SIGTERM, note);
+  for (const int signal : watched)
+    if (std::signal(signal, note) == SIG_IGN) std::signal(signal, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool interrupt_requested() { return requested != 0; }

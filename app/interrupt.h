@@ -2,7 +2,9 @@
 
 namespace lamella {
 
-/// From here on Ctrl-C and SIGTERM set a flag, once; a second one ends the program as usual.
+/// From here on Ctrl-C, SIGTERM and a closed terminal set a flag; a second one of these ends the
+/// program as usual. Signals that the program was started to ignore (nohup) stay ignored. A reader
+/// of standard output that goes away no longer ends the program.
 void watch_for_interrupt();
 bool interrupt_requested();
 

@@ -4,22 +4,40 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace lamella {
 
 namespace {
+
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
+
+/// Characters that a line of the terminal holds without the cursor going to the next.
+std::size_t line_width() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return (known ? size.ws_col : 80) - 1;
+}
+
 } // namespace
 
 Progress::Progress(double end_time, double longest_step)
-    : end_time_(end_time), longest_step_(longest_step), terminal_(isatty(fileno(stderr))), start_(Clock::now()),
-      last_(start_) {}
+    : end_time_(end_time), longest_step_(longest_step), terminal_(isatty(STDERR_FILENO)),
+      start_(Clock::now()), last_(start_) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  if (shown_ == 0) return;
+  show("");
+  std::fputs("\r", stderr);
+}
 
-/// Relaxation slows down as it goes on and steps grow in proportion to time, up to the longest allowed.
+/// Relaxation slows down as it goes on and steps grow in proportion to time, up to the longest
+/// allowed.
 double Progress::steps_left(double time, double dt) const {
   if (time >= end_time_ || dt <= 0) return 0;
   const double growing_until = std::clamp(time * longest_step_ / dt, time, end_time_);
@@ -31,17 +49,24 @@ void Progress::update(const Measures& m, double next_dt) {
   if (!terminal_ || seconds_since(last_) < 0.1) return;
   last_ = Clock::now();
   const double left = steps_left(m.time, next_dt) * seconds_since(start_) / double(steps_);
-  fmt::print(stderr, "\r\033[K t = {:.3e} of {:.3e}   E = {:.4f}   Δt = {:.1e}   step {}   {} left", m.time, end_time_,
-             m.energy, m.dt, steps_, duration_text(left));
-  std::fflush(stderr);
-  shown_ = true;
+  const std::size_t width = line_width();
+  std::string line;
+  for (const std::string& part :
+       {fmt::format("t = {:.3e} of {:.3e}", m.time, end_time_),
+        fmt::format("   {} left", duration_text(left)), fmt::format("   E = {:.4f}", m.energy),
+        fmt::format("   dt = {:.1e}", m.dt), fmt::format("   step {}", steps_)}) {
+    if (line.size() + part.size() > width) break;
+    line += part;
+  }
+  show(line);
 }
 
-void Progress::clear() {
-  if (!shown_) return;
-  fmt::print(stderr, "\r\033[K");
+/// Over what was there, which may have been longer.
+void Progress::show(const std::string& line) {
+  const std::string padded = fmt::format("\r{:<{}}", line, std::min(shown_, line_width()));
+  std::fputs(padded.c_str(), stderr);
   std::fflush(stderr);
-  shown_ = false;
+  shown_ = line.size();
 }
 
 std::string duration_text(double seconds) {

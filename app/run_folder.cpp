@@ -3,9 +3,12 @@
 #include "error.h"
 #include "scene/scene_toml.h"
 #include "store/atomic_file.h"
+#include "usage_error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fstream>
+#include <regex>
 
 namespace lamella {
 
@@ -19,10 +22,21 @@ constexpr const char* summary_file = "summary.txt";
 constexpr const char* frames_folder = "frames";
 constexpr const char* series_file = "frames.hdf.series";
 
+// The names of what a run writes, as regular expressions.
+constexpr const char* own_files =
+    R"(scene\.toml|history\.csv|summary\.txt|figure\.png|energy\.png)";
+constexpr const char* frame_names = R"(frame_\d{4,}\.hdf)";
+constexpr const char* own_frames = R"(frame_\d{4,}\.hdf|frames\.hdf\.series)";
+
 std::string frame_file(std::size_t number) { return fmt::format("frame_{:04}.hdf", number); }
 
+bool matches(const fs::path& file, const char* names) {
+  return std::regex_match(file.filename().string(), std::regex(names));
+}
+
 /// `action` with the system's complaints turned into StoreError.
-template <class F> auto or_store_error(const fs::path& path, const char* what, F&& action) {
+template <class F>
+auto or_store_error(const fs::path& path, const char* what, F&& action) {
   try {
     return action();
   } catch (const fs::filesystem_error& e) {
@@ -30,36 +44,78 @@ template <class F> auto or_store_error(const fs::path& path, const char* what, F
   }
 }
 
-void make_empty(const fs::path& folder, bool force) {
-  if (fs::exists(folder) && !fs::is_directory(folder))
-    throw StoreError(fmt::format("{}: exists and is not a folder; choose another with -o", folder.string()));
-  fs::create_directories(folder);
-  if (fs::is_empty(folder)) return;
-  if (!force)
-    throw StoreError(fmt::format("{}: the folder is not empty; choose another with -o, or replace the run in it with "
-                                 "--force",
-                                 folder.string()));
-  for (const char* old : {scene_file, history_file, summary_file, frames_folder, "figure.png", "energy.png"})
-    fs::remove_all(folder / old);
+/// A run has a scene and a history, which may have stayed empty.
+bool holds_run(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / scene_file)) return false;
+  std::ifstream history(folder / history_file);
+  std::string columns;
+  std::getline(history, columns);
+  return fs::is_regular_file(folder / history_file) &&
+         (columns.empty() || columns.starts_with("t,dt,energy,"));
 }
 
+/// Removes the files of these names, and what a killed program left of writing them.
+void erase(const fs::path& folder, const char* names) {
+  const std::string unfinished = fmt::format(R"(\.({})\.\d+-\d+\.tmp)", names);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (matches(entry.path(), names) || matches(entry.path(), unfinished.c_str()))
+      files.push_back(entry.path());
+  for (const fs::path& file : files) fs::remove(file);
+}
+
+void erase_run(const fs::path& folder) {
+  erase(folder, own_files);
+  const fs::path frames = folder / frames_folder;
+  if (!fs::is_directory(frames)) return;
+  erase(frames, own_frames);
+  if (fs::is_empty(frames)) fs::remove(frames);
+}
+
+/// In the order of time.
 std::vector<fs::path> stored_frames(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder / frames_folder))
-    if (entry.path().extension() == ".hdf") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+    if (matches(entry.path(), frame_names)) files.push_back(entry.path());
+  std::ranges::sort(files, {}, [](const fs::path& file) {
+    return std::pair(file.native().size(), file.native()); // frame_10000 comes after frame_9999
+  });
   return files;
 }
 
 } // namespace
 
-RunFolder::RunFolder(const fs::path& folder, const Scene& scene, bool force) : folder_(folder) {
-  or_store_error(folder, "cannot use this folder", [&] {
-    make_empty(folder, force);
-    fs::create_directories(folder / frames_folder);
+void refuse_unsuitable(const fs::path& folder, bool force) {
+  or_store_error(folder, "cannot be used as output folder", [&] {
+    if (!fs::exists(folder)) return;
+    if (!fs::is_directory(folder))
+      throw StoreError(
+          fmt::format("{}: exists and is not a folder; choose another with -o", folder.string()));
+    if (fs::is_empty(folder)) return;
+    const bool run = holds_run(folder);
+    if (run && force) return;
+    throw UsageError(fmt::format("{}: the folder {}; choose another with -o{}", folder.string(),
+                                 run ? "holds a run"
+                                 : force
+                                     ? "holds something else than a run, which --force leaves alone"
+                                     : "is not empty",
+                                 run ? ", or replace the run with --force" : ""));
   });
-  write_text_atomically(folder / scene_file, to_toml(scene));
-  history_.emplace(folder / history_file);
+}
+
+RunFolder::RunFolder(const fs::path& folder, const Scene& scene) : folder_(folder) {
+  or_store_error(folder, "cannot be used as output folder", [&] {
+    fs::create_directories(folder);
+    erase_run(folder);
+    try {
+      write_text_atomically(folder / scene_file, to_toml(scene));
+      history_.emplace(folder / history_file);
+      fs::create_directories(folder / frames_folder);
+    } catch (...) {
+      erase_run(folder);
+      throw;
+    }
+  });
 }
 
 void RunFolder::add(const Frame& frame) {
@@ -69,17 +125,19 @@ void RunFolder::add(const Frame& frame) {
   write_series(folder_ / frames_folder / series_file, series_);
 }
 
-void RunFolder::write_summary(const std::string& text) const { write_text_atomically(folder_ / summary_file, text); }
+void RunFolder::write_summary(const std::string& text) const {
+  write_text_atomically(folder_ / summary_file, text);
+}
 
 StoredRun read_run(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw StoreError(fmt::format("{}: no such folder", folder.string()));
-  if (!fs::exists(folder / scene_file))
-    throw StoreError(fmt::format("{}: not the folder of a run: it has no {}", folder.string(), scene_file));
-  const std::vector<fs::path> files =
-    or_store_error(folder, "cannot list its frames", [&] { return stored_frames(folder); });
-  if (files.empty()) throw StoreError(fmt::format("{}: holds no frames", (folder / frames_folder).string()));
-  return {read_scene(folder / scene_file), read_history(folder / history_file), read_frame(files.front()),
-          read_frame(files.back())};
+  return or_store_error(folder, "cannot be read", [&]() -> StoredRun {
+    if (!fs::is_directory(folder)) throw UsageError(folder.string() + ": no such folder");
+    if (!holds_run(folder)) throw UsageError(folder.string() + ": holds no run");
+    const std::vector<fs::path> files = stored_frames(folder);
+    if (files.empty()) throw UsageError(folder.string() + ": the run in it has no frames");
+    return {read_scene(folder / scene_file), read_history(folder / history_file),
+            read_frame(files.front()), read_frame(files.back())};
+  });
 }
 
 } // namespace lamella

@@ -10,6 +10,11 @@
 
 namespace lamella {
 
+/// Throws UsageError for a folder that may not receive a run: one that is not empty, and with
+/// `force` one that holds something else than an earlier run. Throws StoreError for what is no
+/// folder.
+void refuse_unsuitable(const std::filesystem::path& folder, bool force);
+
 /// What a run leaves behind, and how it is laid out:
 ///   scene.toml              the scene as run, complete
 ///   history.csv             one row a step
@@ -18,9 +23,9 @@ namespace lamella {
 ///   summary.txt             the outcome in words
 class RunFolder {
 public:
-  /// Creates the folder. An existing one that is not empty is refused unless `force`, which removes what an
-  /// earlier run left there and nothing else. Throws StoreError.
-  RunFolder(const std::filesystem::path& folder, const Scene& scene, bool force);
+  /// Creates the folder, or removes what an earlier run left there and nothing else. Throws
+  /// StoreError.
+  RunFolder(const std::filesystem::path& folder, const Scene& scene);
 
   void add(const Measures& measures) { history_->add(measures); }
   void add(const Frame& frame);
@@ -28,6 +33,7 @@ public:
 
   const std::filesystem::path& path() const { return folder_; }
   int frames() const { return int(series_.size()); }
+  double last_frame_time() const { return series_.back().time; }
 
 private:
   std::filesystem::path folder_;
@@ -42,7 +48,7 @@ struct StoredRun {
   Frame start, end;
 };
 
-/// Throws StoreError for a folder that holds no run.
+/// Throws UsageError for a folder that holds no run, StoreError for one that cannot be read.
 StoredRun read_run(const std::filesystem::path& folder);
 
 } // namespace lamella

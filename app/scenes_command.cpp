@@ -9,7 +9,8 @@ namespace lamella {
 
 int show_scenes(const std::string& name) {
   if (name.empty()) {
-    for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<16} {}\n", scene.name, scene.title);
+    for (const BuiltinScene& scene : builtin_scenes())
+      fmt::print("{:<16} {}\n", scene.name, scene.title);
     return success;
   }
   builtin_scene(name);

@@ -1,0 +1,152 @@
+#include "command_line.h"
+
+#include "commands.h"
+#include "exit_code.h"
+#include "kernels/kernels.h"
+#include "scene/nearest.h"
+#include "usage_error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lamella {
+
+namespace {
+
+constexpr const char* introduction =
+    "Dynamics of lipid vesicles: level sets, bending energy, fixed volume and area.";
+
+constexpr const char* first_steps = R"(First steps:
+  lamella scenes                       what there is to run
+  lamella run fig3_oblate -o oblate    numbers and pictures of one in the folder "oblate"
+  lamella run --help                   more about a command)";
+
+constexpr const char* run_notes = R"(Examples:
+  lamella run fig3_oblate -o oblate              a built-in scene
+  lamella scenes fig3_oblate > vesicle.toml      a scene to start your own from
+  lamella run vesicle.toml                       into the folder "vesicle"
+  lamella run vesicle.toml -o fine --set grid.nodes=96 --set numerics.tolerance=0.002
+
+A name without folder and ".toml" is first looked for among the built-in scenes; ./NAME is always a
+file. The output folder receives figure.png, energy.png, history.csv, frames/, scene.toml and
+summary.txt. Ctrl-C ends a run early and stores what there is.
+
+Exit codes: 0 done, 2 bad scene or command line (nothing written), 3 the run could not go on (stored
+up to there), 4 a file could not be written, 5 no pictures, 130 interrupted.)";
+
+constexpr const char* render_notes = R"(Examples:
+  lamella render oblate                 figure.png and energy.png again
+  lamella render oblate --width 4200    larger, for a poster)";
+
+constexpr const char* scenes_notes = R"(Examples:
+  lamella scenes                              the list
+  lamella scenes fig3_oblate > vesicle.toml   a scene to start your own from)";
+
+void add_backend(CLI::App& command, std::string& backend) {
+  command.add_option("--backend", backend, "How pictures are drawn: auto, osmesa, egl or x")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "x"}).description(""))
+      ->capture_default_str()
+      ->type_name("NAME");
+}
+
+void add_run(CLI::App& app, RunOptions& options) {
+  CLI::App& run = *app.add_subcommand("run", "Run a scene; numbers and pictures go to a folder");
+  run.footer(run_notes);
+  run.add_option("scene", options.scene, "Scene file (.toml), or the name of a built-in scene")
+      ->required()
+      ->type_name("");
+  run.add_option("-o,--output", options.folder, "Output folder (default: the scene's name)")
+      ->check([](const std::string& name) { return name.empty() ? "the name is empty" : ""; })
+      ->type_name("FOLDER");
+  run.add_option("--threads", options.threads, "Threads (default: all cores)")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  run.add_option("--set", options.set, "Change a value of the scene; may be repeated")
+      ->expected(1)
+      ->take_all()
+      ->type_name("SECTION.KEY=VALUE");
+  run.add_flag("--force", options.force, "Replace an earlier run in the output folder");
+  run.add_flag("--no-pictures", options.no_pictures, "Numbers only");
+  add_backend(run, options.backend);
+}
+
+void add_render(CLI::App& app, RenderCommandOptions& options) {
+  CLI::App& render = *app.add_subcommand("render", "Draw the pictures of a stored run again");
+  render.footer(render_notes);
+  render.add_option("folder", options.folder, "Output folder of a run")->required()->type_name("");
+  render.add_option("--width", options.width, "Width of figure.png in pixels (default: 2100)")
+      ->check(CLI::Range(200, 10000).description(""))
+      ->type_name("N");
+  add_backend(render, options.backend);
+}
+
+void add_scenes(CLI::App& app, std::string& name) {
+  CLI::App& scenes = *app.add_subcommand("scenes", "List the built-in scenes, or print one");
+  scenes.footer(scenes_notes);
+  scenes.add_option("name", name, "The scene to print")->type_name("");
+}
+
+/// What to say about an argument that no command takes.
+std::string unknown_argument(const CLI::App& command, const std::string& argument) {
+  if (!argument.starts_with('-'))
+    return fmt::format("\"{}\" is one argument too many (names with spaces need quotes)", argument);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return fmt::format("{}: no such option{}", argument, suggestion(argument, views));
+}
+
+[[noreturn]] void refuse(const CLI::App& app, const CLI::ParseError& error) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& command = chosen.empty() ? app : *chosen.front();
+  const std::vector<std::string> extras = app.remaining(true);
+  std::string message = extras.empty() ? error.what() : unknown_argument(command, extras.front());
+  if (!message.ends_with('?'))
+    message +=
+        fmt::format("; see `lamella{} --help`", chosen.empty() ? "" : " " + command.get_name());
+  throw UsageError(message);
+}
+
+void refuse_unknown_command(const CLI::App& app, const std::string& word) {
+  std::vector<std::string_view> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (word.starts_with('-') || std::ranges::count(names, word) > 0) return;
+  throw UsageError(fmt::format("\"{}\" is not a command; allowed: {}{}", word,
+                               fmt::join(names, ", "), suggestion(word, names)));
+}
+
+} // namespace
+
+std::function<int()> parse_command_line(int argc, const char* const* argv) {
+  CLI::App app{introduction, "lamella"};
+  app.footer(first_steps);
+  app.set_version_flag("--version",
+                       fmt::format("lamella {} ({} kernels)\nBSD-3-Clause; this program links FFTW "
+                                   "and is therefore distributed under the GPL.",
+                                   LAMELLA_VERSION, kernels().name));
+  app.require_subcommand(1);
+  RunOptions run_options;
+  RenderCommandOptions render_options;
+  std::string scene;
+  add_run(app, run_options);
+  add_render(app, render_options);
+  add_scenes(app, scene);
+
+  if (argc > 1) refuse_unknown_command(app, argv[1]);
+  try {
+    if (argc < 2) throw CLI::CallForHelp();
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    app.exit(e);
+    return [] { return success; };
+  } catch (const CLI::ParseError& e) {
+    refuse(app, e);
+  }
+  if (app.got_subcommand("run")) return [=] { return run(run_options); };
+  if (app.got_subcommand("render")) return [=] { return render(render_options); };
+  return [=] { return show_scenes(scene); };
+}
+
+} // namespace lamella

@@ -1,0 +1,69 @@
+#include "find_scene.h"
+
+#include "error.h"
+#include "scene/builtin.h"
+#include "scene/nearest.h"
+#include "scene/scene_toml.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lamella {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string_view> builtin_names() {
+  std::vector<std::string_view> names;
+  for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
+  return names;
+}
+
+bool is_builtin(const std::string& name) {
+  return std::ranges::count(builtin_names(), std::string_view(name)) > 0;
+}
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+[[noreturn]] void refuse_folder(const fs::path& folder) {
+  const fs::path inside = folder / "scene.toml";
+  throw SceneError(
+      fmt::format("{}: this is a folder, not a scene{}", folder.string(),
+                  is_there(inside) ? "; the scene of the run in it is " + inside.string() : ""));
+}
+
+[[noreturn]] void refuse_missing_file(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  throw SceneError(fmt::format("{}: no such file{}", file.string(),
+                               is_builtin(stem) ? "; the built-in scene is called " + stem : ""));
+}
+
+[[noreturn]] void refuse_word(const std::string& word) {
+  const std::vector<std::string_view> names = builtin_names();
+  const std::string file = word + ".toml";
+  throw SceneError(fmt::format("\"{}\": neither a file nor a built-in scene; built in are {}{}",
+                               word, fmt::join(names, ", "),
+                               is_there(file) ? fmt::format("; did you mean \"{}\"?", file)
+                                              : suggestion(word, names)));
+}
+
+} // namespace
+
+Scene find_scene(const std::string& wanted, std::span<const std::string> overrides) {
+  if (is_builtin(wanted)) return builtin_scene(wanted, overrides);
+  const fs::path file = wanted;
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (fs::is_directory(status)) refuse_folder(file);
+  if (status.type() != fs::file_type::not_found) return read_scene(file, overrides);
+  if (file.has_parent_path() || file.extension() == ".toml") refuse_missing_file(file);
+  refuse_word(wanted);
+}
+
+} // namespace lamella

@@ -1,0 +1,43 @@
+#pragma once
+#include "dynamics/measures.h"
+#include "exit_code.h"
+#include "scene/scene.h"
+
+#include <string>
+
+namespace lamella {
+
+/// Why the time loop ended.
+struct Outcome {
+  ExitCode code = success;
+  std::string reason; ///< of a run that could not go on
+};
+
+/// What is remembered of a run for its summary.
+class Course {
+public:
+  explicit Course(const Measures& start);
+  /// After a step.
+  void add(const Measures& measures);
+
+  const Measures& start() const { return start_; }
+  const Measures& end() const { return end_; }
+  long steps() const { return steps_; }
+  /// The largest so far, relative.
+  double area_drift() const { return area_drift_; }
+  double volume_drift() const { return volume_drift_; }
+
+private:
+  Measures start_, end_;
+  long steps_ = 0;
+  double area_drift_, volume_drift_;
+};
+
+/// "reached the end", "was interrupted at t = 0.0003", "stopped at t = 0.0003: the membrane ...".
+std::string words_for(const Outcome& outcome, double time);
+
+/// The text of summary.txt.
+std::string summary(const Scene& scene, const Course& course, const Outcome& outcome,
+                    double seconds);
+
+} // namespace lamella
