@@ -60,6 +60,8 @@ Scene find_scene(const std::string& wanted, std::span<const std::string> overrid
   const fs::path file = wanted;
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
+  if (error == std::errc::filename_too_long)
+    throw SceneError(wanted.substr(0, 60) + "...: too long for the name of a file");
   if (fs::is_directory(status)) refuse_folder(file);
   if (status.type() != fs::file_type::not_found) return read_scene(file, overrides);
   if (file.has_parent_path() || file.extension() == ".toml") refuse_missing_file(file);

@@ -36,7 +36,7 @@ int obey(int argc, char** argv) {
   } catch (const RenderError& e) {
     return complain(no_pictures, e.what());
   } catch (const std::bad_alloc&) {
-    return complain(run_stopped, "not enough memory; choose fewer grid.nodes");
+    return complain(run_stopped, "not enough memory");
   } catch (const std::exception& e) {
     return complain(unexpected, std::string("unexpected error, please report it: ") + e.what());
   } catch (...) {

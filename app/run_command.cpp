@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <fmt/format.h>
+#include <new>
 
 namespace lamella {
 
@@ -26,6 +27,9 @@ Simulation start(const Scene& scene) {
     return Simulation(scene);
   } catch (const RunError& e) {
     throw SceneError(fmt::format("{}: the run cannot start: {}", scene.name, e.what()));
+  } catch (const std::bad_alloc&) {
+    throw SceneError(
+        fmt::format("{}: not enough memory for its grid; choose fewer grid.nodes", scene.name));
   }
 }
 
