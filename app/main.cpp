@@ -9,8 +9,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <new>
 #include <string>
+#include <unistd.h>
 
 namespace {
 
@@ -44,9 +46,17 @@ int obey(int argc, char** argv) {
   }
 }
 
+/// Where one is closed, a file of the run would take its place and receive what is said.
+void open_standard_streams() {
+  int descriptor = 0;
+  while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
+  if (descriptor >= 0) close(descriptor);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN); // a file beyond the allowed size is an error like a full disk
   const int code = obey(argc, argv);
   if (std::fflush(stdout) != 0 && errno != EPIPE && code == success)

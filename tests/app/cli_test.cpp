@@ -146,6 +146,13 @@ TEST_F(Cli, says_little_where_nobody_looks) {
   EXPECT_THAT(result.out, MatchesRegex("[ -~]+\n[ -~]+\n[ -~]+\n")) << "three lines of plain text";
 }
 
+TEST_F(Cli, says_nothing_into_its_files_where_it_has_no_output) {
+  setting_.closed_output = true;
+  EXPECT_EQ(call(quick({"-o", "run"})).code, 0);
+  check_stored(work() / "run");
+  EXPECT_THAT(text_of(work() / "run" / "history.csv"), StartsWith("t,dt,"));
+}
+
 TEST_F(Cli, tells_the_largest_drift_of_the_run) {
   ASSERT_EQ(call(quick({"-o", "run"})).code, 0);
   double area = 0, volume = 0;

@@ -31,6 +31,7 @@ struct Setting {
   rlim_t largest_file = RLIM_INFINITY;        ///< bytes
   bool without_privileges = false;            ///< root becomes nobody
   bool ignore_interrupt = false;              ///< as nohup and shells do for jobs in the background
+  bool closed_output = false;                 ///< no standard output at all
   std::filesystem::path standard_output = {}; ///< a file to use instead
 };
 
@@ -44,6 +45,7 @@ public:
     if (id_ != 0) return;
     redirect(out_, STDOUT_FILENO);
     redirect(err_, STDERR_FILENO);
+    if (setting.closed_output) close(STDOUT_FILENO);
     const rlimit limit{setting.largest_file, setting.largest_file};
     setrlimit(RLIMIT_FSIZE, &limit);
     if (setting.ignore_interrupt) std::signal(SIGINT, SIG_IGN);
