@@ -116,52 +116,47 @@ Vec3 to_body(const Rotation& r, const Vec3& d) {
   return x;
 }
 
-/// A polynomial that is negative inside, and the length of its gradient.
-struct Implicit {
-  double value, slope;
-};
-
-Implicit quadric(const Vec3& axes, const Vec3& x) {
-  double value = -1, square = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double t = x[i] / axes[i];
-    value += t * t;
-    square += 4 * t * t / (axes[i] * axes[i]);
-  }
-  return {value, std::sqrt(square)};
+/// Negative inside; |gradient| 2 / semi-axis at the poles.
+double quadric(const Vec3& axes, const Vec3& x) {
+  double value = -1;
+  for (int i = 0; i < 3; ++i) value += x[i] / axes[i] * (x[i] / axes[i]);
+  return value;
 }
 
-Implicit torus(double ring, double tube, const Vec3& x) {
+/// Negative inside; |gradient| 8 ring^2 tube on top of the tube.
+double quartic(double ring, double tube, const Vec3& x) {
   const double rho_squared = x[0] * x[0] + x[1] * x[1];
   const double g = rho_squared + x[2] * x[2] + ring * ring - tube * tube;
-  return {g * g - 4 * ring * ring * rho_squared,
-          4 * std::hypot(std::sqrt(rho_squared) * (g - 2 * ring * ring), x[2] * g)};
+  return g * g - 4 * ring * ring * rho_squared;
 }
 
 /// The level set in the shape's own frame, with all that does not depend on the point computed
 /// once.
 class LevelSet {
 public:
-  explicit LevelSet(const Shape& shape)
-      : shape_(shape), rotation_(rotation(shape)), length_(smallest_half_thickness(shape)) {
-    if (shape.kind != ShapeKind::torus) axes_ = semi_axes(shape);
+  explicit LevelSet(const Shape& shape) : shape_(shape), rotation_(rotation(shape)) {
+    if (shape.kind == ShapeKind::torus) {
+      scale_ = 1 / (8 * shape.ring_radius * shape.ring_radius * shape.tube_radius);
+    } else {
+      axes_ = semi_axes(shape);
+      const auto [smallest, largest] = std::ranges::minmax(axes_);
+      scale_ = std::sqrt(smallest * largest) / 2;
+    }
   }
 
   /// d: from the shape's centre.
   double operator()(const Vec3& d) const {
     const Vec3 x = to_body(rotation_, d);
-    const Implicit f = shape_.kind == ShapeKind::torus
-                           ? torus(shape_.ring_radius, shape_.tube_radius, x)
-                           : quadric(axes_, x);
-    const double level = f.value / length_;
-    return f.value / std::sqrt(f.slope * f.slope + level * level);
+    if (shape_.kind == ShapeKind::torus)
+      return scale_ * quartic(shape_.ring_radius, shape_.tube_radius, x);
+    return scale_ * quadric(axes_, x);
   }
 
 private:
   Shape shape_;
   Rotation rotation_;
   Vec3 axes_{};
-  double length_;
+  double scale_;
 };
 
 } // namespace
@@ -227,19 +222,19 @@ double smallest_radius_of_curvature(const Shape& shape) {
   return smallest * smallest / largest;
 }
 
-double shape_distance(const Shape& shape, const Vec3& point) {
+double shape_function(const Shape& shape, const Vec3& point) {
   const Vec3& c = shape.center;
   return LevelSet(shape)({point[0] - c[0], point[1] - c[1], point[2] - c[2]});
 }
 
 std::vector<double> initial_phi(const Shape& shape, const Grid& grid) {
-  const LevelSet distance(shape);
-  const double width = std::max(5 * grid.spacing, smallest_half_thickness(shape));
+  const LevelSet level_set(shape);
+  const double width = std::max(8 * grid.spacing, smallest_half_thickness(shape));
   std::vector<double> phi(grid.size());
   for (std::size_t n = 0; n < phi.size(); ++n) {
     Vec3 d = grid.position(n);
     for (int i = 0; i < 3; ++i) d[i] = std::remainder(d[i] - shape.center[i], grid.length(i));
-    phi[n] = width * std::tanh(distance(d) / width);
+    phi[n] = width * std::tanh(level_set(d) / width);
   }
   return phi;
 }

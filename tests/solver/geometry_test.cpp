@@ -175,7 +175,7 @@ TEST(Variation, OfEnergyAreaVolumeAndMeanCurvature) {
   for (const Shape& shape : shapes)
     for (double C : {0.0, -3.0, 2.0}) {
       const Helfrich bending{1.7, C};
-      const double e = 1e-4;
+      const double e = 1e-3;
       const Varied plus = varied(shape, bending, e), minus = varied(shape, bending, -e);
       const StartSurface s(shape, Grid::cube(64, 1));
       double dE = 0, dA = 0, dV = 0, dM = 0;
