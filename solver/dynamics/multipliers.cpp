@@ -1,6 +1,6 @@
 #include "dynamics/multipliers.h"
 
-#include <Eigen/SVD>
+#include <Eigen/LU>
 
 namespace lamella {
 
@@ -10,11 +10,8 @@ Eigen::Vector2d solve_scaled(const Eigen::Matrix2d& m, const Eigen::Vector2d& b)
   Eigen::Matrix2d scaled = row_scale.asDiagonal() * m;
   const Eigen::Vector2d column_scale = scaled.colwise().norm().transpose().cwiseInverse();
   scaled = scaled * column_scale.asDiagonal();
-  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(scaled, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Array2d s = svd.singularValues().array();
-  const Eigen::Vector2d along = svd.matrixU().transpose() * row_scale.cwiseProduct(b);
-  const Eigen::Vector2d damped = (along.array() * s / (s.square() + damping * damping)).matrix();
-  return column_scale.cwiseProduct(svd.matrixV() * damped);
+  const Eigen::Matrix2d normal = scaled.transpose() * scaled + damping * damping * Eigen::Matrix2d::Identity();
+  return column_scale.cwiseProduct(normal.inverse() * (scaled.transpose() * row_scale.cwiseProduct(b)));
 }
 
 Multipliers multipliers_at_rest(const SurfaceIntegrals& integrals) {

@@ -145,8 +145,9 @@ void Simulation::check(const Measures& m) const {
     if (!std::isfinite(value)) throw RunError("a measured value is not finite");
   if (!(m.volume > 0 && m.area > 0)) throw RunError("the membrane no longer encloses a volume");
   if (drift() > hopeless_drift)
-    throw RunError("volume and area can no longer be kept: somewhere the membrane is thinner than the grid can "
-                   "resolve; try more grid.nodes");
+    throw RunError(steps_ == 0 ? "the start shape is thinner than the grid can resolve; try more grid.nodes"
+                               : "volume and area can no longer be kept: somewhere the membrane is thinner than the "
+                                 "grid can resolve; try more grid.nodes");
   for (std::size_t i = 0; i < surface_.size(); i++) {
     const Vec3 p = surface_.point(i);
     for (int d = 0; d < 3; d++)
@@ -222,7 +223,8 @@ void Simulation::step(double latest) {
   steps_++;
   broken_ = true;
   measure();
-  const Measures now = summarise(dt);
+  Measures now = summarise(dt);
+  if (now.time > latest * (1 - 1e-12)) now.time = latest; // rounding
   check(now);
   measures_ = now;
   broken_ = false;

@@ -83,7 +83,7 @@ double Gauge::renormalise(LevelSet& phi, const NarrowBand& band, std::span<const
   };
   phi.update_nodal();
   fourier.apply([&](int k, double* out) { extension.plane(k, out); }, smooth, multiply);
-  phi.fit(target, fourier, 8);
+  phi.fit(target, fourier);
   return 1 / mean;
 }
 

@@ -28,7 +28,7 @@ public:
   /// Coefficients whose nodal values are `values`, but for grid-scale content (kinks far from the membrane), which
   /// the spline would turn into ringing: the result of `sweeps` sweeps c <- c + (values - nodal(c)), found at once
   /// in Fourier space.
-  void fit(std::span<const double> values, Fourier& fourier, int sweeps = 15);
+  void fit(std::span<const double> values, Fourier& fourier, int sweeps = 8);
 
 private:
   Grid grid_;

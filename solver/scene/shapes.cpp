@@ -229,7 +229,8 @@ double shape_function(const Shape& shape, const Vec3& point) {
 
 std::vector<double> initial_phi(const Shape& shape, const Grid& grid) {
   const LevelSet level_set(shape);
-  const double width = std::max(8 * grid.spacing, smallest_half_thickness(shape));
+  const double shortest = grid.spacing * std::ranges::min(grid.nodes);
+  const double width = std::max(16 * grid.spacing, shortest / 4);
   std::vector<double> phi(grid.size());
   for (std::size_t n = 0; n < phi.size(); ++n) {
     Vec3 d = grid.position(n);

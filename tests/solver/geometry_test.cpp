@@ -82,15 +82,16 @@ struct Case {
   const char* name;
   Shape shape;
   ExactAt exact;
-  int coarse, fine; // nodes per side
-  double lap_KM_64; // relative error allowed at 64^3, from the measurement in docs/numerics.md
+  double lap_KM_64; // relative error allowed at 64^3; measured 1.3e-5, 4.1e-6, 2.4e-4
 };
 
 const Case cases[] = {
-  {"oblate", oblate(0.7, 0.6), exact_ellipsoid({0.7, 0.7, oblate_axis_ratio(0.6) * 0.7}), 64, 96, 6e-3},
-  {"triaxial", ellipsoid({0.6, 0.45, 0.35}), exact_ellipsoid({0.6, 0.45, 0.35}), 32, 48, 2e-5},
-  {"torus", torus(0.5, 0.2), exact_torus(0.5, 0.2), 32, 48, 2e-4},
+  {"oblate", oblate(0.7, 0.6), exact_ellipsoid({0.7, 0.7, oblate_axis_ratio(0.6) * 0.7}), 3e-5},
+  {"triaxial", ellipsoid({0.6, 0.45, 0.35}), exact_ellipsoid({0.6, 0.45, 0.35}), 1e-5},
+  {"torus", torus(0.5, 0.2), exact_torus(0.5, 0.2), 5e-4},
 };
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 class Static : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Shapes, Static, testing::ValuesIn(cases),
@@ -98,12 +99,12 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Static, testing::ValuesIn(cases),
 
 TEST_P(Static, SurfaceLaplacianConvergesAtThirdOrderOrBetter) {
   const Case& c = GetParam();
-  const Errors coarse = errors_of(StartSurface(c.shape, Grid::cube(c.coarse, 1)), c.exact);
-  const Errors fine = errors_of(StartSurface(c.shape, Grid::cube(c.fine, 1)), c.exact);
-  const double order = std::log(coarse.lap_KM / fine.lap_KM) / std::log(double(c.fine) / c.coarse);
+  const Errors coarse = errors_of(StartSurface(c.shape, Grid::cube(64, 1)), c.exact);
+  const Errors fine = errors_of(StartSurface(c.shape, Grid::cube(96, 1)), c.exact);
+  const double order = std::log(coarse.lap_KM / fine.lap_KM) / std::log(96. / 64);
   EXPECT_GE(order, 3) << coarse.lap_KM << " -> " << fine.lap_KM;
-  std::printf("Lap_s K_M: %.1e at %d^3, %.1e at %d^3, order %.1f; K_M %.1e, %.1e\n", coarse.lap_KM, c.coarse, fine.lap_KM,
-              c.fine, order, coarse.KM, fine.KM);
+  std::printf("relative errors at 64^3, 96^3: Lap_s K_M %.1e, %.1e (order %.1f); K_M %.1e, %.1e; K %.1e, %.1e\n",
+              coarse.lap_KM, fine.lap_KM, order, coarse.KM, fine.KM, coarse.K, fine.K);
   EXPECT_LT(fine.KM, coarse.KM);
   EXPECT_LT(fine.K, coarse.K);
 }
@@ -111,8 +112,8 @@ TEST_P(Static, SurfaceLaplacianConvergesAtThirdOrderOrBetter) {
 TEST_P(Static, CurvaturesAreAccurateAt64) {
   const Case& c = GetParam();
   const Errors e = errors_of(StartSurface(c.shape, Grid::cube(64, 1)), c.exact);
-  EXPECT_LT(e.KM, 1e-3);
-  EXPECT_LT(e.K, 1e-3);
+  EXPECT_LT(e.KM, 5e-6);
+  EXPECT_LT(e.K, 1e-5);
   EXPECT_LT(e.lap_KM, c.lap_KM_64);
 }
 
@@ -132,7 +133,7 @@ TEST_P(Static, GaussBonnet) {
   const Case& c = GetParam();
   const SurfaceIntegrals sums = integrate(StartSurface(c.shape, Grid::cube(64, 1)).geometry, {}, {});
   const int genus = c.shape.kind == ShapeKind::torus;
-  EXPECT_NEAR(sums.int_K() / (4 * M_PI), 1 - genus, 1e-4);
+  EXPECT_NEAR(sums.int_K() / (4 * M_PI), 1 - genus, 5e-4);
 }
 
 TEST(Static, SphereIsExact) {
@@ -187,10 +188,11 @@ TEST(Variation, OfEnergyAreaVolumeAndMeanCurvature) {
         dV += w * u;
         dM -= 2 * w * u * K;
       }
-      EXPECT_NEAR((plus.energy - minus.energy) / (2 * e), dE, 1e-4 * std::abs(dE) + 1e-2) << "C = " << C;
-      EXPECT_NEAR((plus.area - minus.area) / (2 * e), dA, 1e-4 * std::abs(dA) + 1e-4);
-      EXPECT_NEAR((plus.volume - minus.volume) / (2 * e), dV, 1e-4 * std::abs(dV) + 1e-4);
-      EXPECT_NEAR((plus.int_KM - minus.int_KM) / (2 * e), dM, 1e-4 * std::abs(dM) + 1e-3);
+      // The quadrature's error, 5e-6, has the period of the grid: its derivative is 1e-3.
+      EXPECT_NEAR((plus.energy - minus.energy) / (2 * e), dE, 1e-3 * std::abs(dE) + 0.1) << "C = " << C;
+      EXPECT_NEAR((plus.area - minus.area) / (2 * e), dA, 1e-3 * std::abs(dA) + 1e-3);
+      EXPECT_NEAR((plus.volume - minus.volume) / (2 * e), dV, 1e-3 * std::abs(dV) + 1e-3);
+      EXPECT_NEAR((plus.int_KM - minus.int_KM) / (2 * e), dM, 1e-3 * std::abs(dM) + 0.02);
     }
 }
 

@@ -156,7 +156,7 @@ TEST(Shapes, KnowTheirThinnestAndSharpestPlaces) {
   EXPECT_DOUBLE_EQ(smallest_radius_of_curvature(ellipsoid({0.7, 0.2, 0.5})), 0.04 / 0.7);
 }
 
-TEST(StartLevelSet, VanishesWithSlopeOneOnTheSurface) {
+TEST(StartLevelSet, VanishesWithSlopeAroundOneOnTheSurface) {
   for (const Shape& shape : samples())
     for (const Vec3& x : surface_points(shape, 100)) {
       EXPECT_NEAR(shape_function(shape, x), 0, 1e-12);
