@@ -14,7 +14,7 @@ namespace lamella {
 
 namespace {
 constexpr double band_half_width = 4.2;  // spacings: the spline's reach and a little more
-constexpr double worst_drift = 2e-6;     // relative error of volume and area that a recorded state may have
+constexpr double worst_drift = 5e-6;     // relative error of volume and area that a recorded state may have
 constexpr double hopeless_drift = 1e-5;  // more cannot be recorded: the run stops
 constexpr int most_projections = 8;
 constexpr double force_limit = 1;        // kappa / h^3: more is an unresolved tip
