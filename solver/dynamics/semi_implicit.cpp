@@ -8,7 +8,7 @@ namespace lamella {
 
 namespace {
 constexpr double blend = 1;               // z0: modes with z above it are mostly Euler
-constexpr double least_history = 0.5;      // of SBDF2, for stiff modes too: halves their lag; stable to 1.5 times the symbol
+constexpr double least_history = 0.3;      // of SBDF2, for stiff modes too: cuts their lag
 constexpr double least_spline_symbol = 0.25; // along an axis; nodal rates become coefficient rates no further
 double* numbers(std::complex<double>* modes) { return reinterpret_cast<double*>(modes); }
 } // namespace
