@@ -58,6 +58,10 @@ void Simulation::measure() {
   locate();
   surface_.curvatures(phi_, band_);
   integrals_ = integrate(surface_, bending_, {});
+  if (steps_ > 0) {
+    volume_curvature_ += integrals_.volume - volume_;
+    area_curvature_ += integrals_.area() - area_;
+  }
   project();
   measure_forces();
   for (int pass = 0; pass < most_projections && drift() > worst_drift; pass++) {
@@ -176,7 +180,7 @@ template <class Velocity> void Simulation::extend_rates(Velocity&& v) {
 }
 
 /// Adds to the step's increment what keeps volume and area to first order: the response to a tension, and a
-/// constant. (Constraint forces in the metric of the implicit step: energy then falls as in a gradient flow of
+/// constant. What the last steps gained beyond first order is expected again. (Constraint forces in the metric of the implicit step: energy then falls as in a gradient flow of
 /// that metric. Corrected afterwards, along K_M itself, long tubes began to oscillate.)
 void Simulation::apply_constrained() {
   const std::size_t n = surface_.size();
@@ -195,7 +199,7 @@ void Simulation::apply_constrained() {
     });
   }
   Eigen::Matrix2d change = Eigen::Matrix2d::Zero(); // of volume and area, with factor and constant
-  Eigen::Vector2d wanted{volume_ - integrals_.volume, area_ - integrals_.area()};
+  Eigen::Vector2d wanted{volume_ - integrals_.volume - volume_curvature_, area_ - integrals_.area() - area_curvature_};
   for (std::size_t i = 0; i < n; i++) {
     const double w = -surface_.weight()[i] / surface_.grad()[i], KM = surface_.KM()[i];
     const Eigen::Vector2d effect{w, -w * KM};
