@@ -180,6 +180,20 @@ TEST(Relaxation, SphereStaysPut) {
   EXPECT_LE(worst_drift(history), 1e-5);
 }
 
+TEST(Relaxation, NearlySphericalVesiclesKeepTheirReducedVolume) {
+  for (double v : {0.98, 0.999, 0.9999}) {
+    const std::vector<Measures> history = run(scene_of(oblate(0.6, v), 32, 2e-3));
+    EXPECT_NEAR((1 - history.back().reduced_volume) / (1 - v), 1, 0.1) << v;
+    EXPECT_LE(worst_drift(history), 1e-5) << v;
+  }
+}
+
+TEST(Relaxation, TinySpheresSurviveManySteps) {
+  Scene scene = scene_of(sphere(0.45), 16, 5e-3); // 3.6 spacings
+  scene.numerics.max_time_step = 1e-5;
+  EXPECT_NEAR(run(scene).back().energy, 8 * M_PI, 0.01);
+}
+
 TEST(Relaxation, TorusKeepsItsHole) {
   const std::vector<Measures> history = run(scene_of(torus(0.5, 0.2), 48, 2e-3));
   EXPECT_EQ(history.back().genus, 1);
