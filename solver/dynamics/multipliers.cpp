@@ -5,7 +5,7 @@
 namespace lamella {
 
 Eigen::Vector2d solve_scaled(const Eigen::Matrix2d& m, const Eigen::Vector2d& b) {
-  constexpr double damping = 3e-5;
+  constexpr double damping = 1e-4;
   const Eigen::Vector2d row_scale = m.rowwise().norm().cwiseInverse();
   Eigen::Matrix2d scaled = row_scale.asDiagonal() * m;
   const Eigen::Vector2d column_scale = scaled.colwise().norm().transpose().cwiseInverse();
