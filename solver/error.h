@@ -8,7 +8,8 @@ struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The run cannot go on (non-finite values, collapsed step, shape left the box); says why and at which time.
+/// The run cannot go on (non-finite values, collapsed step, shape left the box); says why and at
+/// which time.
 struct RunError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -10,14 +10,19 @@ namespace lamella {
 void set_thread_count(int threads);
 int thread_count();
 
-/// f(begin, end) for consecutive chunks of [0, n), in any order and on any thread. The chunks depend on
-/// n and grain alone, so whatever is computed a chunk does not depend on the number of threads.
-void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f);
+/// f(begin, end) for consecutive chunks of [0, n), in any order and on any thread. The chunks
+/// depend on n and grain alone, so whatever is computed a chunk does not depend on the number of
+/// threads.
+void parallel_for(std::size_t n, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& f);
 
-/// Sum of f(begin, end) over the chunks of [0, n), added in their order: the same for any number of threads.
-template <class Sum, class F> Sum parallel_sum(std::size_t n, std::size_t grain, F&& f) {
+/// Sum of f(begin, end) over the chunks of [0, n), added in their order: the same for any number of
+/// threads.
+template <class Sum, class F>
+Sum parallel_sum(std::size_t n, std::size_t grain, F&& f) {
   std::vector<Sum> parts((n + grain - 1) / grain);
-  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) { parts[begin / grain] = f(begin, end); });
+  parallel_for(n, grain,
+               [&](std::size_t begin, std::size_t end) { parts[begin / grain] = f(begin, end); });
   Sum total{};
   for (const Sum& part : parts) total += part;
   return total;

@@ -10,16 +10,20 @@ Eigen::Vector2d solve_scaled(const Eigen::Matrix2d& m, const Eigen::Vector2d& b)
   Eigen::Matrix2d scaled = row_scale.asDiagonal() * m;
   const Eigen::Vector2d column_scale = scaled.colwise().norm().transpose().cwiseInverse();
   scaled = scaled * column_scale.asDiagonal();
-  const Eigen::Matrix2d normal = scaled.transpose() * scaled + damping * damping * Eigen::Matrix2d::Identity();
-  return column_scale.cwiseProduct(normal.inverse() * (scaled.transpose() * row_scale.cwiseProduct(b)));
+  const Eigen::Matrix2d normal =
+      scaled.transpose() * scaled + damping * damping * Eigen::Matrix2d::Identity();
+  return column_scale.cwiseProduct(normal.inverse() *
+                                   (scaled.transpose() * row_scale.cwiseProduct(b)));
 }
 
 Multipliers multipliers_at_rest(const SurfaceIntegrals& integrals) {
-  const Eigen::Vector2d x = solve_scaled(integrals.gram.topLeftCorner<2, 2>(), integrals.variation.head<2>());
+  const Eigen::Vector2d x =
+      solve_scaled(integrals.gram.topLeftCorner<2, 2>(), integrals.variation.head<2>());
   return {x[0], x[1]};
 }
 
-Multipliers displacement_for(const SurfaceIntegrals& integrals, double volume_change, double area_change) {
+Multipliers displacement_for(const SurfaceIntegrals& integrals, double volume_change,
+                             double area_change) {
   const Eigen::Vector2d wanted{volume_change, -area_change}; // dA = -int K_M u dA
   const Eigen::Vector2d x = solve_scaled(integrals.gram.topLeftCorner<2, 2>(), wanted);
   return {x[0], x[1]};

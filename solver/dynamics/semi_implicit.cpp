@@ -7,17 +7,20 @@
 namespace lamella {
 
 namespace {
-constexpr double blend = 1;               // z0: modes with z above it are mostly Euler
-constexpr double least_history = 0.3;      // of SBDF2, for stiff modes too: cuts their lag
-constexpr double least_spline_symbol = 0.25; // along an axis; nodal rates become coefficient rates no further
+constexpr double blend = 1;           // z0: modes with z above it are mostly Euler
+constexpr double least_history = 0.3; // of SBDF2, for stiff modes too: cuts their lag
+constexpr double least_spline_symbol =
+    0.25; // along an axis; nodal rates become coefficient rates no further
 double* numbers(std::complex<double>* modes) { return reinterpret_cast<double*>(modes); }
 } // namespace
 
 SemiImplicit::SemiImplicit(const Grid& grid, Fourier& fourier)
-    : grid_(grid), fourier_(fourier), rate_(fourier.modes(), 0.0), spectral_increment_(fourier.modes(), 0.0),
-      spectral_response_(fourier.modes(), 0.0), increment_(grid.size(), 0.0), previous_(grid.size(), 0.0),
-      response_(grid.size(), 0.0) {
-  auto symbol = [&](int axis, int m) { return std::max(least_spline_symbol, fourier.spline_symbol(axis, m)); };
+    : grid_(grid), fourier_(fourier), rate_(fourier.modes(), 0.0),
+      spectral_increment_(fourier.modes(), 0.0), spectral_response_(fourier.modes(), 0.0),
+      increment_(grid.size(), 0.0), previous_(grid.size(), 0.0), response_(grid.size(), 0.0) {
+  auto symbol = [&](int axis, int m) {
+    return std::max(least_spline_symbol, fourier.spline_symbol(axis, m));
+  };
   for (int m = 0; m < fourier.row_modes(); m++)
     for (int part = 0; part < 2; part++) {
       kx2_.push_back(fourier.k2(0, m));
@@ -52,8 +55,9 @@ void SemiImplicit::predict(const Extension& rates, double dt, const ImplicitSymb
   const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
   auto step = [&](int ky, int kz, std::complex<double>* modes) {
     const std::size_t at = fourier_.row_index(ky, kz);
-    kernels().spectral_row(row(ky, kz), numbers(modes), numbers(&rate_[at]), numbers(&spectral_increment_[at]),
-                           numbers(&spectral_response_[at]), response_factor_);
+    kernels().spectral_row(row(ky, kz), numbers(modes), numbers(&rate_[at]),
+                           numbers(&spectral_increment_[at]), numbers(&spectral_response_[at]),
+                           response_factor_);
   };
   fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step,
                  [&](int k, const double* in) { std::copy_n(in, plane, &increment_[k * plane]); });

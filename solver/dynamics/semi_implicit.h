@@ -14,10 +14,11 @@ struct ImplicitSymbol {
   double tension = 0;   ///< >= 0
 };
 
-/// Advances phi by d phi / dt = rate with the stiff part implicit: a blend, mode by mode, of SBDF2 (where
-/// z = dt (stiffness k^4 + tension k^2) is small) and semi-implicit Euler (where it is large), with variable
-/// steps. Stiff modes keep 0.3 of SBDF2's history, which cuts their lag by a third; that is stable while the
-/// true symbol is below 1.6 times the implicit one (Euler alone: 2, SBDF2 alone: 4/3).
+/// Advances phi by d phi / dt = rate with the stiff part implicit: a blend, mode by mode, of SBDF2
+/// (where z = dt (stiffness k^4 + tension k^2) is small) and semi-implicit Euler (where it is
+/// large), with variable steps. Stiff modes keep 0.3 of SBDF2's history, which cuts their lag by a
+/// third; that is stable while the true symbol is below 1.6 times the implicit one (Euler alone: 2,
+/// SBDF2 alone: 4/3).
 ///
 /// A step is made of predict(), respond() and apply(), in this order.
 class SemiImplicit {
@@ -27,14 +28,17 @@ public:
   /// Coefficient increment of a step of length dt at the given nodal rates.
   void predict(const Extension& rates, double dt, const ImplicitSymbol& symbol);
 
-  /// What a constraint force does in the same step: its nodal rates, smoothed as the step smooths. Constraints
-  /// that are kept along this response, and not along the force itself, do not work against the step.
+  /// What a constraint force does in the same step: its nodal rates, smoothed as the step smooths.
+  /// Constraints that are kept along this response, and not along the force itself, do not work
+  /// against the step.
   void respond(const Extension& rates);
 
-  /// c += increment + factor response + constant; the sum is the increment that the next step remembers.
+  /// c += increment + factor response + constant; the sum is the increment that the next step
+  /// remembers.
   void apply(LevelSet& phi, double factor, double constant);
 
-  /// Coefficients at the nodes: of the step under way from predict() on, of the last step after apply().
+  /// Coefficients at the nodes: of the step under way from predict() on, of the last step after
+  /// apply().
   std::span<const double> increment() const { return increment_; }
   std::span<const double> response() const { return response_; }
   /// Of the step before.

@@ -13,33 +13,39 @@
 namespace lamella {
 
 namespace {
-constexpr double band_half_width = 4.2;  // spacings: the spline's reach and a little more
-constexpr double worst_drift = 5e-6;     // relative error of volume and area that a recorded state may have
-constexpr double hopeless_drift = 1e-5;  // more cannot be recorded: the run stops
+constexpr double band_half_width = 4.2; // spacings: the spline's reach and a little more
+constexpr double worst_drift =
+    5e-6; // relative error of volume and area that a recorded state may have
+constexpr double hopeless_drift = 1e-5; // more cannot be recorded: the run stops
 constexpr int most_projections = 8;
-constexpr double memory = 0.9;           // of changes beyond first order; on a sphere they cannot be made up for
-constexpr double force_limit = 1;        // kappa / h^3: more is an unresolved tip
-constexpr double gauge_limit = 1.2;        // |grad phi| over its mean; where it varies more the step loses stability
+constexpr double memory =
+    0.9; // of changes beyond first order; on a sphere they cannot be made up for
+constexpr double force_limit = 1; // kappa / h^3: more is an unresolved tip
+constexpr double gauge_limit =
+    1.2; // |grad phi| over its mean; where it varies more the step loses stability
 constexpr int steps_between_renormalisations = 5;
 constexpr int steps_between_responses = 4;
-constexpr double margin = 2.75; // spacings kept free at the sides of the box: the reach of the quadrature kernel
+constexpr double margin =
+    2.75; // spacings kept free at the sides of the box: the reach of the quadrature kernel
 
 double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 } // namespace
 
 Simulation::Simulation(const Scene& scene)
     : bending_{scene.membrane.bending_modulus, scene.membrane.spontaneous_curvature},
-      control_({scene.numerics.tolerance, scene.grid().spacing, scene.membrane.bending_modulus,
-                scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16}),
-      phi_(scene.grid()), fourier_(scene.grid()), band_(scene.grid(), band_half_width), extension_(scene.grid()),
-      gauge_(scene.grid()), stepper_(scene.grid(), fourier_) {
+      control_(
+          {scene.numerics.tolerance, scene.grid().spacing, scene.membrane.bending_modulus,
+           scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16}),
+      phi_(scene.grid()), fourier_(scene.grid()), band_(scene.grid(), band_half_width),
+      extension_(scene.grid()), gauge_(scene.grid()), stepper_(scene.grid(), fourier_) {
   const std::vector<double> start = initial_phi(scene.shape, scene.grid());
   std::copy(start.begin(), start.end(), phi_.coefficients().begin());
   phi_.fit(start, fourier_);
   area_ = exact_area(scene.shape);
   volume_ = exact_volume(scene.shape);
   measure();
-  if (drift() < 1e-3) { // as near to the shape as quadrature can tell: of a sphere either volume or area is off
+  if (drift() < 1e-3) { // as near to the shape as quadrature can tell: of a sphere either volume or
+                        // area is off
     area_ = integrals_.area();
     volume_ = integrals_.volume;
   }
@@ -50,15 +56,18 @@ Simulation::Simulation(const Scene& scene)
 Frame Simulation::frame() const {
   LevelSet phi = phi_;
   if (broken_)
-    for (std::size_t i = 0; i < phi.coefficients().size(); i++) phi.coefficients()[i] -= stepper_.increment()[i];
+    for (std::size_t i = 0; i < phi.coefficients().size(); i++)
+      phi.coefficients()[i] -= stepper_.increment()[i];
   phi.update_nodal();
   return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}};
 }
 
-// ------------------------------------------------------------------------------------------------ measuring
+// ------------------------------------------------------------------------------------------------
+// measuring
 
-/// Brings the membrane onto its constraints and finds everything that is known of it. Second derivatives
-/// suffice to measure the drift of volume and area; what is recorded is measured after its correction.
+/// Brings the membrane onto its constraints and finds everything that is known of it. Second
+/// derivatives suffice to measure the drift of volume and area; what is recorded is measured after
+/// its correction.
 void Simulation::measure() {
   locate();
   surface_.curvatures(phi_, band_);
@@ -76,7 +85,8 @@ void Simulation::measure() {
 }
 
 double Simulation::drift() const {
-  return std::max(std::abs(integrals_.volume / volume_ - 1), std::abs(integrals_.area() / area_ - 1));
+  return std::max(std::abs(integrals_.volume / volume_ - 1),
+                  std::abs(integrals_.area() / area_ - 1));
 }
 
 void Simulation::locate() {
@@ -90,7 +100,8 @@ void Simulation::locate() {
 /// Displaces the membrane by a + b K_M so that volume and area are those of the scene.
 void Simulation::project() {
   const double longest = 0.3 * grid().spacing;
-  const Multipliers u = displacement_for(integrals_, volume_ - integrals_.volume, area_ - integrals_.area());
+  const Multipliers u =
+      displacement_for(integrals_, volume_ - integrals_.volume, area_ - integrals_.area());
   const Points p = band_.points();
   work_.resize(band_.size());
   for (std::size_t i = 0; i < surface_.size(); i++) {
@@ -120,7 +131,8 @@ void Simulation::measure_forces() {
   integrals_ = integrate(surface_, bending_, variation_);
   multipliers_ = multipliers_at_rest(integrals_);
   max_speed_ = 0;
-  for (std::size_t i = 0; i < surface_.size(); i++) max_speed_ = std::max(max_speed_, std::abs(velocity(i)));
+  for (std::size_t i = 0; i < surface_.size(); i++)
+    max_speed_ = std::max(max_speed_, std::abs(velocity(i)));
 }
 
 /// Normal velocity at a sample (Eq. 80).
@@ -130,7 +142,8 @@ double Simulation::velocity(std::size_t i) const {
 
 Measures Simulation::summarise(double dt) const {
   Measures m;
-  const double A = integrals_.area(), V = integrals_.volume, radius = sphere_radius(A), pi = std::numbers::pi;
+  const double A = integrals_.area(), V = integrals_.volume, radius = sphere_radius(A),
+               pi = std::numbers::pi;
   m.time = measures_.time + dt;
   m.dt = dt;
   m.energy = m.bending_energy = integrals_.energy;
@@ -154,21 +167,26 @@ void Simulation::check(const Measures& m) const {
     if (!std::isfinite(value)) throw RunError("a measured value is not finite");
   if (!(m.volume > 0 && m.area > 0)) throw RunError("the membrane no longer encloses a volume");
   if (drift() > hopeless_drift)
-    throw RunError(steps_ == 0 ? "the start shape is thinner than the grid can resolve; try more grid.nodes"
-                               : "volume and area can no longer be kept: somewhere the membrane is thinner than the "
-                                 "grid can resolve; try more grid.nodes");
+    throw RunError(
+        steps_ == 0
+            ? "the start shape is thinner than the grid can resolve; try more grid.nodes"
+            : "volume and area can no longer be kept: somewhere the membrane is thinner than the "
+              "grid can resolve; try more grid.nodes");
   for (std::size_t i = 0; i < surface_.size(); i++) {
     const Vec3 p = surface_.point(i);
     for (int d = 0; d < 3; d++)
       if (std::abs(p[d]) > 0.5 * grid().length(d) - margin * grid().spacing)
-        throw RunError(fmt::format("the membrane has come within {} grid spacings of a side of the box", margin));
+        throw RunError(fmt::format(
+            "the membrane has come within {} grid spacings of a side of the box", margin));
   }
 }
 
-// ----------------------------------------------------------------------------------------------- time steps
+// -----------------------------------------------------------------------------------------------
+// time steps
 
 double Simulation::choose_dt(double latest) const {
-  const double dt = steps_ == 0 ? control_.first(max_force_) : control_.next(measures_.dt, error_, max_speed_);
+  const double dt =
+      steps_ == 0 ? control_.first(max_force_) : control_.next(measures_.dt, error_, max_speed_);
   const double left = latest - time();
   if (dt >= left * (1 - 1e-9)) return left;
   return dt > 0.5 * left ? 0.5 * left : dt;
@@ -177,16 +195,19 @@ double Simulation::choose_dt(double latest) const {
 double Simulation::next_dt() const { return choose_dt(1e300); }
 
 /// d phi / dt = -v |grad phi| for a velocity v at the samples, carried into the box.
-template <class Velocity> void Simulation::extend_rates(Velocity&& v) {
+template <class Velocity>
+void Simulation::extend_rates(Velocity&& v) {
   work_.resize(band_.size());
-  for (std::size_t i = 0; i < surface_.size(); i++) work_[surface_.entry()[i]] = -v(i) * surface_.grad()[i];
+  for (std::size_t i = 0; i < surface_.size(); i++)
+    work_[surface_.entry()[i]] = -v(i) * surface_.grad()[i];
   extension_.complete(0, work_);
   extension_.fill(band_, work_);
 }
 
-/// Adds to the step's increment what keeps volume and area to first order: the response to a tension, and a
-/// constant. What the last steps gained beyond first order is expected again. (Constraint forces in the metric of the implicit step: energy then falls as in a gradient flow of
-/// that metric. Corrected afterwards, along K_M itself, long tubes began to oscillate.)
+/// Adds to the step's increment what keeps volume and area to first order: the response to a
+/// tension, and a constant. What the last steps gained beyond first order is expected again.
+/// (Constraint forces in the metric of the implicit step: energy then falls as in a gradient flow
+/// of that metric. Corrected afterwards, along K_M itself, long tubes began to oscillate.)
 void Simulation::apply_constrained() {
   const std::size_t n = surface_.size();
   std::vector<double> x(n), y(n), z(n), increment(n), response(n);
@@ -197,14 +218,16 @@ void Simulation::apply_constrained() {
     z[i] = p[2];
   }
   SplineView field = phi_.view();
-  for (auto [source, values] : {std::pair{stepper_.increment(), &increment}, {stepper_.response(), &response}}) {
+  for (auto [source, values] :
+       {std::pair{stepper_.increment(), &increment}, {stepper_.response(), &response}}) {
     field.coefficients = source.data();
     parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
       kernels().cubic(field, end - begin, {&x[begin], &y[begin], &z[begin]}, &(*values)[begin]);
     });
   }
   Eigen::Matrix2d change = Eigen::Matrix2d::Zero(); // of volume and area, with factor and constant
-  Eigen::Vector2d wanted{volume_ - integrals_.volume - volume_curvature_, area_ - integrals_.area() - area_curvature_};
+  Eigen::Vector2d wanted{volume_ - integrals_.volume - volume_curvature_,
+                         area_ - integrals_.area() - area_curvature_};
   for (std::size_t i = 0; i < n; i++) {
     const double w = -surface_.weight()[i] / surface_.grad()[i], KM = surface_.KM()[i];
     const Eigen::Vector2d effect{w, -w * KM};
@@ -218,10 +241,12 @@ void Simulation::apply_constrained() {
 }
 
 void Simulation::step(double latest) {
-  const double dt = choose_dt(latest), C = bending_.spontaneous_curvature, kappa = bending_.bending_modulus;
+  const double dt = choose_dt(latest), C = bending_.spontaneous_curvature,
+               kappa = bending_.bending_modulus;
   gauge_.filter(phi_, band_);
   extend_rates([&](std::size_t i) { return velocity(i); });
-  stepper_.predict(extension_, dt, {kappa, std::max(0.0, multipliers_.sigma + 0.5 * kappa * C * C)});
+  stepper_.predict(extension_, dt,
+                   {kappa, std::max(0.0, multipliers_.sigma + 0.5 * kappa * C * C)});
   if (steps_ % steps_between_responses == 0 || dt > 1.5 * response_dt_ || 1.5 * dt < response_dt_) {
     extend_rates([&](std::size_t i) { return surface_.KM()[i]; });
     stepper_.respond(extension_);
@@ -249,7 +274,8 @@ double Simulation::step_error() const {
     const int s = surface_.entry()[i];
     if (std::abs(band_.distance()[s]) > h) continue;
     const int node = band_.node()[s];
-    const double e = (stepper_.increment()[node] - ratio * stepper_.previous_increment()[node]) / surface_.grad()[i];
+    const double e = (stepper_.increment()[node] - ratio * stepper_.previous_increment()[node]) /
+                     surface_.grad()[i];
     sum += e * e;
     count++;
   }

@@ -12,15 +12,16 @@ namespace lamella {
 
 /// A vesicle in time: the state of a scene, advanced step by step.
 ///
-/// After construction and after every step the state is on its constraints (volume and area of the start)
-/// and measured. The state depends on the scene alone, to the last bit whatever the number of threads.
+/// After construction and after every step the state is on its constraints (volume and area of the
+/// start) and measured. The state depends on the scene alone, to the last bit whatever the number
+/// of threads.
 class Simulation {
 public:
   /// Throws RunError where the start shape cannot be represented.
   explicit Simulation(const Scene& scene);
 
-  /// One time step, not beyond `latest` (> time()). Throws RunError when the run cannot go on; frame() and
-  /// measures() then still give the state before the step.
+  /// One time step, not beyond `latest` (> time()). Throws RunError when the run cannot go on;
+  /// frame() and measures() then still give the state before the step.
   void step(double latest);
 
   double time() const { return measures_.time; }
@@ -42,7 +43,8 @@ private:
   void check(const Measures& m) const;
   void renormalise_if_needed();
   Measures summarise(double dt) const;
-  template <class Velocity> void extend_rates(Velocity&& v);
+  template <class Velocity>
+  void extend_rates(Velocity&& v);
   double step_error() const;
   double choose_dt(double latest) const;
 
@@ -57,11 +59,12 @@ private:
   SurfaceGeometry surface_;
   SurfaceIntegrals integrals_;
   Multipliers multipliers_;
-  std::vector<double> variation_;  // F at the samples
+  std::vector<double> variation_;   // F at the samples
   std::vector<double> grad_, work_; // a number a band entry
-  bool broken_ = false; // the last step failed: the state is the one before it
-  double area_ = 0, volume_ = 0; // of the scene's shape
-  double area_curvature_ = 0, volume_curvature_ = 0; // change in a step beyond first order, as last seen
+  bool broken_ = false;             // the last step failed: the state is the one before it
+  double area_ = 0, volume_ = 0;    // of the scene's shape
+  double area_curvature_ = 0,
+         volume_curvature_ = 0; // change in a step beyond first order, as last seen
   double max_force_ = 0, max_speed_ = 0, error_ = 0;
   double response_dt_ = 0; // the step that the response of the tension was found for
   long steps_ = 0, renormalised_ = 0;

@@ -13,12 +13,13 @@ public:
   };
   explicit StepControl(const Limits& limits) : limits_(limits) {}
 
-  /// The first step of a run or after a restart: a fiftieth of a spacing at the largest driving speed.
+  /// The first step of a run or after a restart: a fiftieth of a spacing at the largest driving
+  /// speed.
   double first(double max_force) const;
 
-  /// Step after one of length `last` that made the error `error` (spacings), with the membrane moving at most
-  /// at max_speed: grows by at most 1.3, and never below the time that a bump of the size of the grid takes to
-  /// relax, h^4 / (4 kappa), once there; going below resolves noise only.
+  /// Step after one of length `last` that made the error `error` (spacings), with the membrane
+  /// moving at most at max_speed: grows by at most 1.3, and never below the time that a bump of the
+  /// size of the grid takes to relax, h^4 / (4 kappa), once there; going below resolves noise only.
   double next(double last, double error, double max_speed) const;
 
 private:

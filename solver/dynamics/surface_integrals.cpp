@@ -12,25 +12,27 @@ SurfaceIntegrals& SurfaceIntegrals::operator+=(const SurfaceIntegrals& other) {
   return *this;
 }
 
-SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending, std::span<const double> variation) {
-  return parallel_sum<SurfaceIntegrals>(surface.size(), 2048, [&](std::size_t begin, std::size_t end) {
-    SurfaceIntegrals sum;
-    double s[6] = {}, f[3] = {};
-    for (std::size_t i = begin; i < end; i++) {
-      const double w = surface.weight()[i], KM = surface.KM()[i], K = surface.K()[i];
-      if (w == 0) continue;
-      const Vec3 p = surface.point(i), n = surface.normal(i);
-      const double products[6] = {1, KM, K, KM * KM, KM * K, K * K};
-      for (int m = 0; m < 6; m++) s[m] += w * products[m];
-      if (!variation.empty())
-        for (int m = 0; m < 3; m++) f[m] += w * products[m] * variation[i];
-      sum.volume += w * (p[0] * n[0] + p[1] * n[1] + p[2] * n[2]) / 3;
-      sum.energy += w * bending.density(KM);
-    }
-    sum.gram << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
-    sum.variation << f[0], f[1], f[2];
-    return sum;
-  });
+SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending,
+                           std::span<const double> variation) {
+  return parallel_sum<SurfaceIntegrals>(
+      surface.size(), 2048, [&](std::size_t begin, std::size_t end) {
+        SurfaceIntegrals sum;
+        double s[6] = {}, f[3] = {};
+        for (std::size_t i = begin; i < end; i++) {
+          const double w = surface.weight()[i], KM = surface.KM()[i], K = surface.K()[i];
+          if (w == 0) continue;
+          const Vec3 p = surface.point(i), n = surface.normal(i);
+          const double products[6] = {1, KM, K, KM * KM, KM * K, K * K};
+          for (int m = 0; m < 6; m++) s[m] += w * products[m];
+          if (!variation.empty())
+            for (int m = 0; m < 3; m++) f[m] += w * products[m] * variation[i];
+          sum.volume += w * (p[0] * n[0] + p[1] * n[1] + p[2] * n[2]) / 3;
+          sum.energy += w * bending.density(KM);
+        }
+        sum.gram << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
+        sum.variation << f[0], f[1], f[2];
+        return sum;
+      });
 }
 
 } // namespace lamella

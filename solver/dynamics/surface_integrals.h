@@ -6,8 +6,8 @@
 
 namespace lamella {
 
-/// Integrals over the membrane that measures and multipliers are made of. The three functions 1, K_M, K of the
-/// surface are what the multipliers P, sigma, sigma_DA push along.
+/// Integrals over the membrane that measures and multipliers are made of. The three functions 1,
+/// K_M, K of the surface are what the multipliers P, sigma, sigma_DA push along.
 struct SurfaceIntegrals {
   Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();      ///< int g_i g_j dA, g = (1, K_M, K)
   Eigen::Vector3d variation = Eigen::Vector3d::Zero(); ///< int g_i F dA, F the energy's variation
@@ -23,6 +23,7 @@ struct SurfaceIntegrals {
 };
 
 /// `variation`: F at the samples; empty leaves those integrals 0.
-SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending, std::span<const double> variation);
+SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending,
+                           std::span<const double> variation);
 
 } // namespace lamella

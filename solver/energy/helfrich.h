@@ -16,10 +16,12 @@ struct Helfrich {
   }
 
   /// Variation of the energy with a normal displacement u: dE = int F u dA,
-  /// F = kappa [Lap_s K_M + K_M^3/2 - 2 K_M K + 2 C K - C^2 K_M / 2]; the membrane feels -F (Eq. 80).
+  /// F = kappa [Lap_s K_M + K_M^3/2 - 2 K_M K + 2 C K - C^2 K_M / 2]; the membrane feels -F (Eq.
+  /// 80).
   double variation(double KM, double K, double lap_KM) const {
     const double C = spontaneous_curvature;
-    return bending_modulus * (lap_KM + 0.5 * KM * KM * KM - 2 * KM * K + 2 * C * K - 0.5 * C * C * KM);
+    return bending_modulus *
+           (lap_KM + 0.5 * KM * KM * KM - 2 * KM * K + 2 * C * K - 0.5 * C * C * KM);
   }
 };
 

@@ -9,7 +9,8 @@
 namespace lamella {
 
 namespace {
-constexpr double reach_inside = 1.8; // spacings; the quadrature kernel and linear interpolation need no more
+constexpr double reach_inside =
+    1.8; // spacings; the quadrature kernel and linear interpolation need no more
 constexpr std::size_t chunk = 256;
 } // namespace
 
@@ -23,10 +24,13 @@ void SurfaceGeometry::sample(const NarrowBand& band) {
     sampled_[s] = d > -reach_inside && d < QuadratureKernel::end;
     if (sampled_[s]) entry_.push_back(int(s));
   }
-  for (auto* a : {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &weight_}) a->resize(size());
+  for (auto* a : {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &weight_})
+    a->resize(size());
 }
 
-void SurfaceGeometry::curvatures(const LevelSet& phi, NarrowBand& band) { evaluate(phi, band, false); }
+void SurfaceGeometry::curvatures(const LevelSet& phi, NarrowBand& band) {
+  evaluate(phi, band, false);
+}
 void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band) { evaluate(phi, band, true); }
 
 void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order) {
@@ -38,15 +42,16 @@ void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourt
       y_[i] = p.y[entry_[i]];
       z_[i] = p.z[entry_[i]];
     }
-    const SurfaceArrays out{&phi_[begin], &nx_[begin], &ny_[begin], &nz_[begin],
-                            &grad_[begin], &KM_[begin], &K_[begin], &lap_KM_[begin]};
-    (fourth_order ? kernels().jets : kernels().curvatures)(spline, end - begin, {&x_[begin], &y_[begin], &z_[begin]},
-                                                           out);
+    const SurfaceArrays out{&phi_[begin],  &nx_[begin], &ny_[begin], &nz_[begin],
+                            &grad_[begin], &KM_[begin], &K_[begin],  &lap_KM_[begin]};
+    (fourth_order ? kernels().jets : kernels().curvatures)(
+        spline, end - begin, {&x_[begin], &y_[begin], &z_[begin]}, out);
     finish(band, begin, end);
   });
 }
 
-/// Limits curvatures to what the grid can carry, takes the last bit of the way onto {phi = 0}, and weighs.
+/// Limits curvatures to what the grid can carry, takes the last bit of the way onto {phi = 0}, and
+/// weighs.
 void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t end) {
   const double h = grid_.spacing, longest = 0.5 * h, KM_limit = 2 / h, K_limit = 1 / (h * h);
   const Points p = band.points();
@@ -59,7 +64,8 @@ void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t en
     p.x[s] = x_[i] += move * nx_[i];
     p.y[s] = y_[i] += move * ny_[i];
     p.z[s] = z_[i] += move * nz_[i];
-    const double d = (node.x[s] - x_[i]) * nx_[i] + (node.y[s] - y_[i]) * ny_[i] + (node.z[s] - z_[i]) * nz_[i];
+    const double d =
+        (node.x[s] - x_[i]) * nx_[i] + (node.y[s] - y_[i]) * ny_[i] + (node.z[s] - z_[i]) * nz_[i];
     weight_[i] = QuadratureKernel::weight(d, KM_[i], K_[i], h);
   }
 }

@@ -7,8 +7,9 @@
 
 namespace lamella {
 
-/// The membrane as a cloud of samples: the nearest points of the band nodes within a few spacings of it, each
-/// with the geometry of the surface there and a quadrature weight. About 5 samples a squared spacing.
+/// The membrane as a cloud of samples: the nearest points of the band nodes within a few spacings
+/// of it, each with the geometry of the surface there and a quadrature weight. About 5 samples a
+/// squared spacing.
 ///
 /// K_M = -2 and K = 1 on the unit sphere; N points outwards.
 class SurfaceGeometry {

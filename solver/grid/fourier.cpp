@@ -13,8 +13,8 @@ namespace {
 fftw_complex* raw(std::complex<double>* p) { return reinterpret_cast<fftw_complex*>(p); }
 } // namespace
 
-/// Single-threaded plans, executed on many planes and column blocks at once: results do not depend on the
-/// number of threads. FFTW_ESTIMATE, so that they do not depend on the run either.
+/// Single-threaded plans, executed on many planes and column blocks at once: results do not depend
+/// on the number of threads. FFTW_ESTIMATE, so that they do not depend on the run either.
 struct Fourier::Plans {
   fftw_plan plane_forward, plane_backward, columns_forward, columns_backward;
 
@@ -25,19 +25,21 @@ struct Fourier::Plans {
     plane_forward = fftw_plan_dft_r2c_2d(ny, nx, plane.data(), raw(modes.data()), FFTW_ESTIMATE);
     plane_backward = fftw_plan_dft_c2r_2d(ny, nx, raw(modes.data()), plane.data(), FFTW_ESTIMATE);
     auto columns = [&](int direction) {
-      return fftw_plan_many_dft(1, &nz, row, raw(modes.data()), nullptr, row, 1, raw(modes.data()), nullptr, row, 1,
-                                direction, FFTW_ESTIMATE);
+      return fftw_plan_many_dft(1, &nz, row, raw(modes.data()), nullptr, row, 1, raw(modes.data()),
+                                nullptr, row, 1, direction, FFTW_ESTIMATE);
     };
     columns_forward = columns(FFTW_FORWARD);
     columns_backward = columns(FFTW_BACKWARD);
   }
   ~Plans() {
-    for (fftw_plan p : {plane_forward, plane_backward, columns_forward, columns_backward}) fftw_destroy_plan(p);
+    for (fftw_plan p : {plane_forward, plane_backward, columns_forward, columns_backward})
+      fftw_destroy_plan(p);
   }
   Plans(const Plans&) = delete;
 };
 
-Fourier::Fourier(const Grid& grid) : grid_(grid), plans_(std::make_unique<Plans>(grid)), modes_(modes()) {}
+Fourier::Fourier(const Grid& grid)
+    : grid_(grid), plans_(std::make_unique<Plans>(grid)), modes_(modes()) {}
 Fourier::~Fourier() = default;
 
 void Fourier::apply(const Source& source, const Modify& modify, const Sink& sink) {
@@ -53,11 +55,13 @@ void Fourier::apply(const Source& source, const Modify& modify, const Sink& sink
     thread_local Array<std::complex<double>> block;
     block.resize(std::size_t(row) * nz);
     const std::size_t bytes = row * sizeof block[0];
-    for (int kz = 0; kz < nz; kz++) std::memcpy(&block[kz * row], &modes_[kz * plane_modes + ky * row], bytes);
+    for (int kz = 0; kz < nz; kz++)
+      std::memcpy(&block[kz * row], &modes_[kz * plane_modes + ky * row], bytes);
     fftw_execute_dft(plans_->columns_forward, raw(block.data()), raw(block.data()));
     for (int kz = 0; kz < nz; kz++) modify(int(ky), kz, &block[kz * row]);
     fftw_execute_dft(plans_->columns_backward, raw(block.data()), raw(block.data()));
-    for (int kz = 0; kz < nz; kz++) std::memcpy(&modes_[kz * plane_modes + ky * row], &block[kz * row], bytes);
+    for (int kz = 0; kz < nz; kz++)
+      std::memcpy(&modes_[kz * plane_modes + ky * row], &block[kz * row], bytes);
   });
   parallel_for(nz, 1, [&](std::size_t k, std::size_t) {
     thread_local Array<double> plane;

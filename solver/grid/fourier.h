@@ -19,7 +19,8 @@ public:
 
   /// Fills the nodal values of plane k (ny nx numbers).
   using Source = std::function<void(int k, double* plane)>;
-  /// Changes a row of modes, kx = 0..nx/2, at given ky and kz; rows come with ky slowest, each once.
+  /// Changes a row of modes, kx = 0..nx/2, at given ky and kz; rows come with ky slowest, each
+  /// once.
   using Modify = std::function<void(int ky, int kz, std::complex<double>* row)>;
   /// Takes the nodal values of plane k, not normalised (nx ny nz times the inverse transform).
   using Sink = std::function<void(int k, const double* plane)>;
@@ -29,7 +30,9 @@ public:
 
   int row_modes() const { return grid_.nx() / 2 + 1; }
   /// Place of a row in arrays of all modes kept between calls.
-  std::size_t row_index(int ky, int kz) const { return (std::size_t(ky) * grid_.nz() + kz) * row_modes(); }
+  std::size_t row_index(int ky, int kz) const {
+    return (std::size_t(ky) * grid_.nz() + kz) * row_modes();
+  }
   std::size_t modes() const { return std::size_t(row_modes()) * grid_.ny() * grid_.nz(); }
   /// Squared wave number of mode m along an axis.
   double k2(int axis, int m) const;
@@ -40,7 +43,8 @@ private:
   struct Plans;
   Grid grid_;
   std::unique_ptr<Plans> plans_;
-  Array<std::complex<double>> modes_; // [kz][ky][kx] between the planes' and the columns' transforms
+  Array<std::complex<double>>
+      modes_; // [kz][ky][kx] between the planes' and the columns' transforms
 };
 
 } // namespace lamella

@@ -8,12 +8,12 @@ using Vec3 = std::array<double, 3>;
 
 /// A periodic box of equally spaced nodes, centred on the origin.
 ///
-/// Nodes sit at cell centres, x_i = -nodes h / 2 + (i + 1/2) h, so that the lattice is mirror symmetric
-/// about the centre of the box: a symmetric start stays symmetric. Arrays over the grid are ordered with x
-/// fastest, index = (k ny + j) nx + i.
+/// Nodes sit at cell centres, x_i = -nodes h / 2 + (i + 1/2) h, so that the lattice is mirror
+/// symmetric about the centre of the box: a symmetric start stays symmetric. Arrays over the grid
+/// are ordered with x fastest, index = (k ny + j) nx + i.
 struct Grid {
-  std::array<int, 3> nodes{};  ///< along x, y, z
-  double spacing = 0;          ///< h, the same along all axes
+  std::array<int, 3> nodes{}; ///< along x, y, z
+  double spacing = 0;         ///< h, the same along all axes
 
   static Grid cube(int nodes_per_side, double half_width) {
     return {{nodes_per_side, nodes_per_side, nodes_per_side}, 2 * half_width / nodes_per_side};

@@ -5,11 +5,12 @@
 namespace lamella::LAMELLA_ISA {
 
 /// Position of the derivative d^(a+b+c) / dx^a dy^b dz^c among those up to Order.
-template <int Order> struct DerivativeIndex {
+template <int Order>
+struct DerivativeIndex {
   static constexpr int pairs = (Order + 1) * (Order + 2) / 2;
   static constexpr int count = (Order + 1) * (Order + 2) * (Order + 3) / 6;
-  int pair_y[pairs], pair_z[pairs];                    // derivative orders of pair q
-  int x[count], pair[count];                           // x order and (y, z) pair of slot m
+  int pair_y[pairs], pair_z[pairs]; // derivative orders of pair q
+  int x[count], pair[count];        // x order and (y, z) pair of slot m
   int slot[Order + 1][Order + 1][Order + 1];
 
   constexpr DerivativeIndex() : pair_y{}, pair_z{}, x{}, pair{}, slot{} {
@@ -30,10 +31,13 @@ template <int Order> struct DerivativeIndex {
         }
   }
 };
-template <int Order> constexpr DerivativeIndex<Order> derivative_index;
+template <int Order>
+constexpr DerivativeIndex<Order> derivative_index;
 
-/// The spline contracted along y and z at one point, and the weights that remain to be applied along x.
-template <int Order> struct Contracted {
+/// The spline contracted along y and z at one point, and the weights that remain to be applied
+/// along x.
+template <int Order>
+struct Contracted {
   V8 rows[DerivativeIndex<Order>::pairs];
   alignas(64) double wx[Order + 1][8];
 };
@@ -53,7 +57,8 @@ LAMELLA_INLINE void add_rows(const double* data, const Stencil& st, const double
   }
 }
 
-template <int Order> LAMELLA_INLINE void contract(const SplineView& s, const double* p, Contracted<Order>& out) {
+template <int Order>
+LAMELLA_INLINE void contract(const SplineView& s, const double* p, Contracted<Order>& out) {
   constexpr const auto& index = derivative_index<Order>;
   constexpr int planes = planes_at_once;
   const Cell cell = cell_of(s, p);
@@ -63,7 +68,8 @@ template <int Order> LAMELLA_INLINE void contract(const SplineView& s, const dou
   spline_weights<Order>(cell.t[0], s.inv_spacing, out.wx);
   spline_weights<Order>(cell.t[1], s.inv_spacing, wy);
   spline_weights<Order>(cell.t[2], s.inv_spacing, wz);
-  // From here on weights are broadcast from memory; the compiler would shuffle and spill registers instead.
+  // From here on weights are broadcast from memory; the compiler would shuffle and spill registers
+  // instead.
   asm volatile("" : : "r"(wy), "r"(wz) : "memory");
 #pragma GCC unroll 1
   for (int part = 0; part < parts; part++) {
@@ -96,7 +102,8 @@ template <int Order> LAMELLA_INLINE void contract(const SplineView& s, const dou
 }
 
 /// All derivatives up to Order at eight points; points[axis][lane].
-template <int Order> LAMELLA_INLINE void derivatives(const SplineView& s, const double (*points)[8], V8* out) {
+template <int Order>
+LAMELLA_INLINE void derivatives(const SplineView& s, const double (*points)[8], V8* out) {
   constexpr const auto& index = derivative_index<Order>;
   Contracted<Order> at[8];
 #pragma GCC unroll 1

@@ -6,12 +6,12 @@
 /// They know arrays and numbers only; what the numbers mean is said in levelset/ and geometry/.
 namespace lamella {
 
-/// Periodic tensor-product B-spline of degree 7, f(x) = sum c_ijk B(x - x_i) B(y - y_j) B(z - z_k), with
-/// coefficients at the nodes of a grid (x fastest).
+/// Periodic tensor-product B-spline of degree 7, f(x) = sum c_ijk B(x - x_i) B(y - y_j) B(z - z_k),
+/// with coefficients at the nodes of a grid (x fastest).
 struct SplineView {
   const double* coefficients;
   int nodes[3];
-  double origin[3];  ///< position of node 0
+  double origin[3]; ///< position of node 0
   double inv_spacing;
 };
 
@@ -41,8 +41,8 @@ struct SpectralRow {
   double dt, ratio;         ///< step, step / previous step (0: no history, Euler)
   double stiffness;         ///< implicit symbol: dt (stiffness k^4 + tension k^2)
   double tension;
-  double blend;             ///< z0: modes with implicit symbol far above it take Euler
-  double least_history;     ///< share of SBDF2 that even the stiffest modes keep
+  double blend;         ///< z0: modes with implicit symbol far above it take Euler
+  double least_history; ///< share of SBDF2 that even the stiffest modes keep
 };
 
 struct Kernels {
@@ -51,14 +51,16 @@ struct Kernels {
   /// Nodal values of one z-plane of a spline: f = FIR c.
   void (*nodal_plane)(const SplineView& spline, int k, double* scratch, double* out);
 
-  /// Newton steps for the constrained nearest point: moves p towards the point of {f = 0} nearest to x.
-  /// `step` receives the length of the last Newton step; with `verify` a last gradient step is taken and
-  /// points that end further than half a spacing from the surface return to where they began with step < 0.
-  void (*closest_points)(const SplineView& spline, std::size_t n, ConstPoints x, Points p, int iterations,
-                         bool verify, double* step);
+  /// Newton steps for the constrained nearest point: moves p towards the point of {f = 0} nearest
+  /// to x. `step` receives the length of the last Newton step; with `verify` a last gradient step
+  /// is taken and points that end further than half a spacing from the surface return to where they
+  /// began with step < 0.
+  void (*closest_points)(const SplineView& spline, std::size_t n, ConstPoints x, Points p,
+                         int iterations, bool verify, double* step);
 
   /// Order-2 surface quantities (all of SurfaceArrays but lap_KM) at points.
-  void (*curvatures)(const SplineView& spline, std::size_t n, ConstPoints p, const SurfaceArrays& out);
+  void (*curvatures)(const SplineView& spline, std::size_t n, ConstPoints p,
+                     const SurfaceArrays& out);
 
   /// All of SurfaceArrays, from derivatives up to order 4.
   void (*jets)(const SplineView& spline, std::size_t n, ConstPoints p, const SurfaceArrays& out);
@@ -66,17 +68,19 @@ struct Kernels {
   /// Quasi-interpolant of nodal data: cubic B-spline with the data as coefficients, at points.
   void (*cubic)(const SplineView& data, std::size_t n, ConstPoints p, double* out);
 
-  /// rate (in: transform of nodal rates; out: transform of the coefficient increment), with the history
-  /// rows rate_old and increment_old brought up to date. The last increment was increment_old +
-  /// correction_factor correction.
-  void (*spectral_row)(const SpectralRow& row, double* rate, double* rate_old, double* increment_old,
-                       const double* correction, double correction_factor);
+  /// rate (in: transform of nodal rates; out: transform of the coefficient increment), with the
+  /// history rows rate_old and increment_old brought up to date. The last increment was
+  /// increment_old + correction_factor correction.
+  void (*spectral_row)(const SpectralRow& row, double* rate, double* rate_old,
+                       double* increment_old, const double* correction, double correction_factor);
 
-  /// rate (in: transform of nodal rates; out: transform of the increment of one semi-implicit Euler step).
+  /// rate (in: transform of nodal rates; out: transform of the increment of one semi-implicit Euler
+  /// step).
   void (*euler_row)(const SpectralRow& row, double* rate);
 };
 
-/// The best kernels for this CPU; LAMELLA_KERNELS=baseline|avx2|avx512 in the environment overrides.
+/// The best kernels for this CPU; LAMELLA_KERNELS=baseline|avx2|avx512 in the environment
+/// overrides.
 const Kernels& kernels();
 
 /// All that this CPU can run, the best one last.

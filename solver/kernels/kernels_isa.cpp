@@ -1,5 +1,6 @@
-// Compiled once for each instruction set, with LAMELLA_ISA as the namespace. No standard-library code may be
-// instantiated here: the linker would keep one copy, perhaps one that this CPU cannot run.
+// Compiled once for each instruction set, with LAMELLA_ISA as the namespace. No standard-library
+// code may be instantiated here: the linker would keep one copy, perhaps one that this CPU cannot
+// run.
 #include "kernels/kernels.h"
 
 #include "kernels/derivatives.h"
@@ -8,8 +9,10 @@
 namespace lamella::LAMELLA_ISA {
 namespace {
 
-/// Coordinates of eight points from `first` on, out[axis][lane]; past the end the last point is repeated.
-LAMELLA_INLINE void gather(const ConstPoints& p, std::size_t first, std::size_t n, double (*out)[8]) {
+/// Coordinates of eight points from `first` on, out[axis][lane]; past the end the last point is
+/// repeated.
+LAMELLA_INLINE void gather(const ConstPoints& p, std::size_t first, std::size_t n,
+                           double (*out)[8]) {
   for (int l = 0; l < 8; l++) {
     const std::size_t i = first + l < n ? first + l : n - 1;
     out[0][l] = p.x[i];
@@ -42,12 +45,14 @@ struct Symmetric {
   }
 };
 
-template <int Order> LAMELLA_INLINE Symmetric hessian(const V8* d) {
+template <int Order>
+LAMELLA_INLINE Symmetric hessian(const V8* d) {
   constexpr const auto& s = derivative_index<Order>.slot;
   return {d[s[2][0][0]], d[s[0][2][0]], d[s[0][0][2]], d[s[1][1][0]], d[s[1][0][1]], d[s[0][1][1]]};
 }
 
-// ------------------------------------------------------------------------------------------- nodal values
+// ------------------------------------------------------------------------------------------- nodal
+// values
 
 /// out[i] = fir applied along a row that repeats periodically.
 LAMELLA_INLINE void fir_row(const double* in, int n, double* extended, double* out) {
@@ -58,18 +63,21 @@ LAMELLA_INLINE void fir_row(const double* in, int n, double* extended, double* o
   for (int i = 0; i < n; i++) extended[i + 3] = in[i];
   for (int i = 0; i < n; i++)
     out[i] = fir[0] * extended[i + 3] + fir[1] * (extended[i + 2] + extended[i + 4]) +
-             fir[2] * (extended[i + 1] + extended[i + 5]) + fir[3] * (extended[i] + extended[i + 6]);
+             fir[2] * (extended[i + 1] + extended[i + 5]) +
+             fir[3] * (extended[i] + extended[i + 6]);
 }
 
-/// out = fir across seven rows, row[0] the middle one and row[2 m - 1], row[2 m] those at distance m.
+/// out = fir across seven rows, row[0] the middle one and row[2 m - 1], row[2 m] those at distance
+/// m.
 LAMELLA_INLINE void fir_across(const double* const* row, std::size_t n, double* out) {
   for (std::size_t i = 0; i < n; i++)
-    out[i] = fir[0] * row[0][i] + fir[1] * (row[1][i] + row[2][i]) + fir[2] * (row[3][i] + row[4][i]) +
-             fir[3] * (row[5][i] + row[6][i]);
+    out[i] = fir[0] * row[0][i] + fir[1] * (row[1][i] + row[2][i]) +
+             fir[2] * (row[3][i] + row[4][i]) + fir[3] * (row[5][i] + row[6][i]);
 }
 
 /// The seven rows around row `i` of `count` rows of length n.
-LAMELLA_INLINE void rows_around(const double* first, std::size_t n, int i, int count, const double** row) {
+LAMELLA_INLINE void rows_around(const double* first, std::size_t n, int i, int count,
+                                const double** row) {
   row[0] = first + i * n;
   for (int m = 1; m <= 3; m++) {
     row[2 * m - 1] = first + (i - m + count) % count * n;
@@ -91,20 +99,24 @@ void nodal_plane(const SplineView& s, int k, double* scratch, double* out) {
   }
 }
 
-// ----------------------------------------------------------------------------------------- closest points
+// ----------------------------------------------------------------------------------------- closest
+// points
 
 constexpr double longest_step = 0.7; // in spacings
 
-/// Newton step of the constrained nearest point, (I + lambda H) dp + g dlambda = (x - p) - lambda g and
-/// g.dp = -f; where that system is not definite (near the medial axis), the gradient step onto {f = 0}.
-LAMELLA_INLINE void newton_step(const V8* d, const V8* x, const V8* p, V8& lambda, bool first, V8* step) {
+/// Newton step of the constrained nearest point, (I + lambda H) dp + g dlambda = (x - p) - lambda g
+/// and g.dp = -f; where that system is not definite (near the medial axis), the gradient step onto
+/// {f = 0}.
+LAMELLA_INLINE void newton_step(const V8* d, const V8* x, const V8* p, V8& lambda, bool first,
+                                V8* step) {
   constexpr const auto& s = derivative_index<2>.slot;
   const V8 f = d[s[0][0][0]], g[3] = {d[s[1][0][0]], d[s[0][1][0]], d[s[0][0][1]]};
   const V8 g2 = dot(g, g) + 1e-300;
   const V8 e[3] = {x[0] - p[0], x[1] - p[1], x[2] - p[2]};
   if (first) lambda = dot(e, g) / g2;
   Symmetric m = hessian<2>(d);
-  m = {1.0 + lambda * m.xx, 1.0 + lambda * m.yy, 1.0 + lambda * m.zz, lambda * m.xy, lambda * m.xz, lambda * m.yz};
+  m = {1.0 + lambda * m.xx, 1.0 + lambda * m.yy, 1.0 + lambda * m.zz,
+       lambda * m.xy,       lambda * m.xz,       lambda * m.yz};
   const Symmetric cof = m.cofactors();
   const V8 det = m.xx * cof.xx + m.xy * cof.xy + m.xz * cof.xz;
   V8 r[3], u[3], w[3];
@@ -115,12 +127,15 @@ LAMELLA_INLINE void newton_step(const V8* d, const V8* x, const V8* p, V8& lambd
   const Mask8 regular = (splat(0.05) < det) & (0.02 * g2 < gw);
   const V8 dlambda = (dot(g, u) + f * det) / select(regular, gw, splat(1));
   const V8 inv_det = 1.0 / select(regular, det, splat(1));
-  for (int c = 0; c < 3; c++) step[c] = select(regular, (u[c] - dlambda * w[c]) * inv_det, -f / g2 * g[c]);
+  for (int c = 0; c < 3; c++)
+    step[c] = select(regular, (u[c] - dlambda * w[c]) * inv_det, -f / g2 * g[c]);
   lambda = select(regular, lambda + dlambda, lambda);
 }
 
-/// Last gradient step onto {f = 0}; lanes that would need more than half a spacing go back to `start`.
-LAMELLA_INLINE void verify_points(const SplineView& s, const double (*q)[8], const V8* start, V8* p, V8& length) {
+/// Last gradient step onto {f = 0}; lanes that would need more than half a spacing go back to
+/// `start`.
+LAMELLA_INLINE void verify_points(const SplineView& s, const double (*q)[8], const V8* start, V8* p,
+                                  V8& length) {
   V8 d[derivative_index<1>.count];
   derivatives<1>(s, q, d);
   constexpr const auto& slot = derivative_index<1>.slot;
@@ -131,8 +146,8 @@ LAMELLA_INLINE void verify_points(const SplineView& s, const double (*q)[8], con
   length = select(good, length, splat(-1));
 }
 
-void closest_points(const SplineView& s, std::size_t n, ConstPoints x, Points points, int iterations, bool verify,
-                    double* step_out) {
+void closest_points(const SplineView& s, std::size_t n, ConstPoints x, Points points,
+                    int iterations, bool verify, double* step_out) {
   const double h = 1 / s.inv_spacing;
   for (std::size_t first = 0; first < n; first += 8) {
     alignas(64) double q[3][8];
@@ -162,14 +177,16 @@ void closest_points(const SplineView& s, std::size_t n, ConstPoints x, Points po
   }
 }
 
-// ----------------------------------------------------------------------------------------------- geometry
+// -----------------------------------------------------------------------------------------------
+// geometry
 
 struct Curvatures {
   V8 phi, normal[3], grad, inv_s, KM, K;
 };
 
 /// K_M = -div N and K = N.cof(H).N / |g|^2 of the level surface through each point.
-template <int Order> LAMELLA_INLINE Curvatures curvatures_from(const V8* d) {
+template <int Order>
+LAMELLA_INLINE Curvatures curvatures_from(const V8* d) {
   constexpr const auto& s = derivative_index<Order>.slot;
   Curvatures c;
   c.phi = d[s[0][0][0]];
@@ -187,7 +204,8 @@ template <int Order> LAMELLA_INLINE Curvatures curvatures_from(const V8* d) {
   return c;
 }
 
-LAMELLA_INLINE void put_curvatures(const Curvatures& c, std::size_t first, std::size_t n, const SurfaceArrays& out) {
+LAMELLA_INLINE void put_curvatures(const Curvatures& c, std::size_t first, std::size_t n,
+                                   const SurfaceArrays& out) {
   put(out.phi, first, n, c.phi);
   put(out.nx, first, n, c.normal[0]);
   put(out.ny, first, n, c.normal[1]);
@@ -212,9 +230,10 @@ void curvatures(const SplineView& s, std::size_t n, ConstPoints p, const Surface
 LAMELLA_INLINE V8 laplacian_of_KM(const V8* d, const Curvatures& c) {
   constexpr const auto& s = derivative_index<4>.slot;
   auto derivative = [&](int i, int j, int k) {
-    return Taylor2{d[s[i][j][k]],         d[s[i + 1][j][k]],     d[s[i][j + 1][k]],     d[s[i][j][k + 1]],
-                   d[s[i + 2][j][k]],     d[s[i][j + 2][k]],     d[s[i][j][k + 2]],     d[s[i + 1][j + 1][k]],
-                   d[s[i + 1][j][k + 1]], d[s[i][j + 1][k + 1]]};
+    return Taylor2{d[s[i][j][k]],        d[s[i + 1][j][k]],     d[s[i][j + 1][k]],
+                   d[s[i][j][k + 1]],    d[s[i + 2][j][k]],     d[s[i][j + 2][k]],
+                   d[s[i][j][k + 2]],    d[s[i + 1][j + 1][k]], d[s[i + 1][j][k + 1]],
+                   d[s[i][j + 1][k + 1]]};
   };
   const Taylor2 x = derivative(1, 0, 0), y = derivative(0, 1, 0), z = derivative(0, 0, 1);
   const Taylor2 xx = derivative(2, 0, 0), yy = derivative(0, 2, 0), zz = derivative(0, 0, 2);
@@ -222,7 +241,8 @@ LAMELLA_INLINE V8 laplacian_of_KM(const V8* d, const Curvatures& c) {
   const Taylor2 x2 = x * x, y2 = y * y, z2 = z * z;
   const Taylor2 cross = x * (y * xy + z * xz) + y * z * yz;
   const Taylor2 numerator = x2 * (yy + zz) + y2 * (xx + zz) + z2 * (xx + yy) - cross - cross;
-  const Taylor2 F = numerator * inverse_cubed_root(x2 + y2 + z2, c.inv_s, 1.0 / c.grad); // div N = -K_M
+  const Taylor2 F =
+      numerator * inverse_cubed_root(x2 + y2 + z2, c.inv_s, 1.0 / c.grad); // div N = -K_M
   const V8* n = c.normal;
   const V8 along = n[0] * F.x + n[1] * F.y + n[2] * F.z;
   const V8 twice_along = n[0] * n[0] * F.xx + n[1] * n[1] * F.yy + n[2] * n[2] * F.zz +
@@ -242,7 +262,8 @@ void jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceArrays
   }
 }
 
-// ---------------------------------------------------------------------------------- cubic quasi-interpolant
+// ---------------------------------------------------------------------------------- cubic
+// quasi-interpolant
 
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 
@@ -263,23 +284,28 @@ void cubic(const SplineView& s, std::size_t n, ConstPoints points, double* out) 
     Four sum = {};
     for (int k = 0; k < 4; k++)
       for (int j = 0; j < 4; j++)
-        sum += *reinterpret_cast<const Four*>(st.data + k * st.stride_z + j * st.stride_y) * (w[2][k] * w[1][j]);
+        sum += *reinterpret_cast<const Four*>(st.data + k * st.stride_z + j * st.stride_y) *
+               (w[2][k] * w[1][j]);
     out[i] = sum[0] * w[0][0] + sum[1] * w[0][1] + sum[2] * w[0][2] + sum[3] * w[0][3];
   }
 }
 
-// ------------------------------------------------------------------------------------------- spectral step
+// -------------------------------------------------------------------------------------------
+// spectral step
 
 void spectral_row(const SpectralRow& row, double* __restrict rate, double* __restrict rate_old,
-                  double* __restrict increment_old, const double* __restrict correction, double correction_factor) {
-  const double w = row.ratio, gain = (1 + 2 * w) / (1 + w) - 1, memory = w * w / (1 + w), inv_z0 = 1 / row.blend;
+                  double* __restrict increment_old, const double* __restrict correction,
+                  double correction_factor) {
+  const double w = row.ratio, gain = (1 + 2 * w) / (1 + w) - 1, memory = w * w / (1 + w),
+               inv_z0 = 1 / row.blend;
   for (int e = 0; e < 2 * row.modes; e++) {
     const double k2 = row.kx2[e] + row.k2, z = row.dt * k2 * (row.stiffness * k2 + row.tension);
     const double theta = row.least_history + (1 - row.least_history) / (1 + z * inv_z0);
     const double r = rate[e] * row.scale * row.inv_symbol[e];
     const double last = increment_old[e] + correction_factor * correction[e];
     const double d =
-      (row.dt * (r + theta * w * (r - rate_old[e])) + theta * (memory + w * z) * last) / (1 + theta * gain + z);
+        (row.dt * (r + theta * w * (r - rate_old[e])) + theta * (memory + w * z) * last) /
+        (1 + theta * gain + z);
     rate_old[e] = r;
     increment_old[e] = d;
     rate[e] = d;
@@ -299,6 +325,13 @@ void euler_row(const SpectralRow& row, double* __restrict rate) {
 #define LAMELLA_STRING(x) LAMELLA_STRING_OF(x)
 
 extern const Kernels table;
-const Kernels table = {LAMELLA_STRING(LAMELLA_ISA), nodal_plane, closest_points, curvatures, jets, cubic, spectral_row, euler_row};
+const Kernels table = {LAMELLA_STRING(LAMELLA_ISA),
+                       nodal_plane,
+                       closest_points,
+                       curvatures,
+                       jets,
+                       cubic,
+                       spectral_row,
+                       euler_row};
 
 } // namespace lamella::LAMELLA_ISA

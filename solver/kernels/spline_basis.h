@@ -3,8 +3,8 @@
 
 namespace lamella::LAMELLA_ISA {
 
-/// Degree-7 B-spline, piecewise: tap k (k = 0..7) is the coefficient at node offset k - 3 from the cell, and
-/// weighs sum_m c[m][k] t^m at position t in [0, 1) of the cell. Built by the recurrence
+/// Degree-7 B-spline, piecewise: tap k (k = 0..7) is the coefficient at node offset k - 3 from the
+/// cell, and weighs sum_m c[m][k] t^m at position t in [0, 1) of the cell. Built by the recurrence
 /// B_j^n(t) = [(t + n - j) B_{j-1}^{n-1} + (j + 1 - t) B_j^{n-1}] / n.
 struct SplineBasis {
   alignas(64) double c[8][8];
@@ -27,7 +27,8 @@ struct SplineBasis {
 constexpr SplineBasis basis;
 
 /// Taps of the derivatives 0..Order at position t of the cell, in units of 1 / spacing^d.
-template <int Order> LAMELLA_INLINE void spline_weights(double t, double inv_h, double (*w)[8]) {
+template <int Order>
+LAMELLA_INLINE void spline_weights(double t, double inv_h, double (*w)[8]) {
   for (int part = 0; part < 8; part += width) {
     Part p[8];
     for (int m = 0; m < 8; m++) p[m] = load_part(&basis.c[m][part]);
@@ -69,8 +70,10 @@ struct Stencil {
   std::size_t stride_y, stride_z;
 };
 
-/// The Taps^3 coefficients around the cell; near the side of the box they are copied, wrapped, to `buffer`.
-template <int Taps> LAMELLA_INLINE Stencil stencil_of(const SplineView& s, const Cell& cell, double* buffer) {
+/// The Taps^3 coefficients around the cell; near the side of the box they are copied, wrapped, to
+/// `buffer`.
+template <int Taps>
+LAMELLA_INLINE Stencil stencil_of(const SplineView& s, const Cell& cell, double* buffer) {
   int b[3];
   bool inside = true;
   for (int d = 0; d < 3; d++) {
@@ -89,7 +92,7 @@ template <int Taps> LAMELLA_INLINE Stencil stencil_of(const SplineView& s, const
     for (int j = 0; j < Taps; j++)
       for (int i = 0; i < Taps; i++)
         buffer[(k * Taps + j) * Taps + i] =
-          s.coefficients[wrapped[2][k] * nxy + wrapped[1][j] * nx + wrapped[0][i]];
+            s.coefficients[wrapped[2][k] * nxy + wrapped[1][j] * nx + wrapped[0][i]];
   return {buffer, Taps, std::size_t(Taps) * Taps};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Eight doubles at once (eight points, or eight spline taps), held in as many registers as this instruction
-// set needs. Included only by kernels_isa.cpp.
+// Eight doubles at once (eight points, or eight spline taps), held in as many registers as this
+// instruction set needs. Included only by kernels_isa.cpp.
 namespace lamella::LAMELLA_ISA {
 
 #define LAMELLA_INLINE static inline __attribute__((always_inline))
@@ -34,18 +34,18 @@ struct V8 {
 };
 
 #define LAMELLA_EACH_PART _Pragma("GCC unroll 4") for (int i = 0; i < parts; i++)
-#define LAMELLA_BINARY(op)                                                                                             \
-  LAMELLA_INLINE V8 operator op(V8 a, V8 b) {                                                                          \
-    LAMELLA_EACH_PART a.v[i] = a.v[i] op b.v[i];                                                                       \
-    return a;                                                                                                          \
-  }                                                                                                                    \
-  LAMELLA_INLINE V8 operator op(V8 a, double b) {                                                                      \
-    LAMELLA_EACH_PART a.v[i] = a.v[i] op b;                                                                            \
-    return a;                                                                                                          \
-  }                                                                                                                    \
-  LAMELLA_INLINE V8 operator op(double a, V8 b) {                                                                      \
-    LAMELLA_EACH_PART b.v[i] = a op b.v[i];                                                                            \
-    return b;                                                                                                          \
+#define LAMELLA_BINARY(op)                                                                         \
+  LAMELLA_INLINE V8 operator op(V8 a, V8 b) {                                                      \
+    LAMELLA_EACH_PART a.v[i] = a.v[i] op b.v[i];                                                   \
+    return a;                                                                                      \
+  }                                                                                                \
+  LAMELLA_INLINE V8 operator op(V8 a, double b) {                                                  \
+    LAMELLA_EACH_PART a.v[i] = a.v[i] op b;                                                        \
+    return a;                                                                                      \
+  }                                                                                                \
+  LAMELLA_INLINE V8 operator op(double a, V8 b) {                                                  \
+    LAMELLA_EACH_PART b.v[i] = a op b.v[i];                                                        \
+    return b;                                                                                      \
   }
 LAMELLA_BINARY(+)
 LAMELLA_BINARY(-)
@@ -70,7 +70,7 @@ LAMELLA_INLINE V8 load(const double* p) {
   return r;
 }
 LAMELLA_INLINE void store(double* p, V8 a) {
-  LAMELLA_EACH_PART *reinterpret_cast<PartAnywhere*>(p + i * width) = a.v[i];
+  LAMELLA_EACH_PART* reinterpret_cast<PartAnywhere*>(p + i * width) = a.v[i];
 }
 
 LAMELLA_INLINE Mask8 operator<(V8 a, V8 b) {
@@ -109,7 +109,8 @@ LAMELLA_INLINE V8 sums_of(const V8* a) {
     b[i] = __builtin_shuffle(a[2 * i].v[0], a[2 * i + 1].v[0], even) +
            __builtin_shuffle(a[2 * i].v[0], a[2 * i + 1].v[0], odd);
   for (int i = 0; i < 2; i++)
-    c[i] = __builtin_shuffle(b[2 * i], b[2 * i + 1], low2) + __builtin_shuffle(b[2 * i], b[2 * i + 1], high2);
+    c[i] = __builtin_shuffle(b[2 * i], b[2 * i + 1], low2) +
+           __builtin_shuffle(b[2 * i], b[2 * i + 1], high2);
   r.v[0] = __builtin_shuffle(c[0], c[1], low4) + __builtin_shuffle(c[0], c[1], high4);
 #elif defined(__AVX2__)
   const PartMask even = {0, 4, 2, 6}, odd = {1, 5, 3, 7}, low = {0, 1, 4, 5}, high = {2, 3, 6, 7};
@@ -117,7 +118,8 @@ LAMELLA_INLINE V8 sums_of(const V8* a) {
     Part s[4], b[2];
     for (int l = 0; l < 4; l++) s[l] = a[4 * i + l].v[0] + a[4 * i + l].v[1];
     for (int l = 0; l < 2; l++)
-      b[l] = __builtin_shuffle(s[2 * l], s[2 * l + 1], even) + __builtin_shuffle(s[2 * l], s[2 * l + 1], odd);
+      b[l] = __builtin_shuffle(s[2 * l], s[2 * l + 1], even) +
+             __builtin_shuffle(s[2 * l], s[2 * l + 1], odd);
     r.v[i] = __builtin_shuffle(b[0], b[1], low) + __builtin_shuffle(b[0], b[1], high);
   }
 #else
@@ -127,7 +129,8 @@ LAMELLA_INLINE V8 sums_of(const V8* a) {
       const V8& q = a[2 * i + l];
       s[l] = (q.v[0] + q.v[1]) + (q.v[2] + q.v[3]);
     }
-    r.v[i] = __builtin_shuffle(s[0], s[1], PartMask{0, 2}) + __builtin_shuffle(s[0], s[1], PartMask{1, 3});
+    r.v[i] = __builtin_shuffle(s[0], s[1], PartMask{0, 2}) +
+             __builtin_shuffle(s[0], s[1], PartMask{1, 3});
   }
 #endif
   return r;

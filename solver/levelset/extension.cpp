@@ -9,8 +9,9 @@ namespace lamella {
 
 namespace {
 
-/// Piecewise-linear interpolation of one plane (k) of a cell-centred lattice twice as fine, periodic.
-/// `row(j, k)` gives coarse rows; out has 2 m[1] rows of 2 m[0] numbers, handed to `put` one by one.
+/// Piecewise-linear interpolation of one plane (k) of a cell-centred lattice twice as fine,
+/// periodic. `row(j, k)` gives coarse rows; out has 2 m[1] rows of 2 m[0] numbers, handed to `put`
+/// one by one.
 template <class Put>
 void interpolate_plane(const double* coarse, const int* m, int k, Array<double>& line, Put&& put) {
   auto side = [](int i, int n) { return i & 1 ? (i / 2 + 1) % n : (i / 2 + n - 1) % n; };
@@ -21,7 +22,8 @@ void interpolate_plane(const double* coarse, const int* m, int k, Array<double>&
   for (int j = 0; j < 2 * m[1]; j++) {
     const int j0 = j / 2, j1 = side(j, m[1]);
     const double *a = row(j0, k0), *b = row(j1, k0), *c = row(j0, k1), *d = row(j1, k1);
-    for (int i = 0; i < m[0]; i++) mixed[i] = 0.5625 * a[i] + 0.1875 * (b[i] + c[i]) + 0.0625 * d[i];
+    for (int i = 0; i < m[0]; i++)
+      mixed[i] = 0.5625 * a[i] + 0.1875 * (b[i] + c[i]) + 0.0625 * d[i];
     mixed[-1] = mixed[m[0] - 1];
     mixed[m[0]] = mixed[0];
     for (int i = 0; i < m[0]; i++) {
@@ -48,7 +50,8 @@ void Extension::prepare(const NarrowBand& band, std::span<const char> known) {
   for (std::size_t s = 0; s < band.size(); s++)
     if (!known[s]) borrowers_.push_back({int(s), {}, {}});
   const ConstPoints p = band.points();
-  const double inv_h = 1 / grid_.spacing, origin[3] = {grid_.origin(0), grid_.origin(1), grid_.origin(2)};
+  const double inv_h = 1 / grid_.spacing,
+               origin[3] = {grid_.origin(0), grid_.origin(1), grid_.origin(2)};
   parallel_for(borrowers_.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; b++) {
       Borrower& borrower = borrowers_[b];
@@ -67,7 +70,8 @@ void Extension::prepare(const NarrowBand& band, std::span<const char> known) {
         const int m = band.slot(grid_.index(base[0] + dx, base[1] + dy, base[2] + dz));
         if (m < 0 || !known[m]) continue;
         borrower.corner[corner] = m;
-        borrower.weight[corner] = (dx ? t[0] : 1 - t[0]) * (dy ? t[1] : 1 - t[1]) * (dz ? t[2] : 1 - t[2]);
+        borrower.weight[corner] =
+            (dx ? t[0] : 1 - t[0]) * (dy ? t[1] : 1 - t[1]) * (dz ? t[2] : 1 - t[2]);
         sum += borrower.weight[corner];
       }
       if (sum > 0)
@@ -121,7 +125,8 @@ void Extension::fill(const NarrowBand& band, std::span<const double> value) {
     v += last.value[i];
     w += last.weight[i];
   }
-  for (std::size_t i = 0; i < last.value.size(); i++) last.value[i] += (1 - last.weight[i]) * (w > 0 ? v / w : 0);
+  for (std::size_t i = 0; i < last.value.size(); i++)
+    last.value[i] += (1 - last.weight[i]) * (w > 0 ? v / w : 0);
   for (std::size_t l = levels_.size() - 1; l > 0; l--) pull(levels_[l], levels_[l - 1]);
 }
 
@@ -133,7 +138,8 @@ void Extension::push(const Level& fine, Level& coarse) const {
         for (int i = 0; i < coarse.nodes[0]; i++) {
           double v = 0, w = 0;
           for (int corner = 0; corner < 8; corner++) {
-            const std::size_t e = fine.row(2 * j + (corner >> 1 & 1), 2 * k + (corner >> 2)) + 2 * i + (corner & 1);
+            const std::size_t e =
+                fine.row(2 * j + (corner >> 1 & 1), 2 * k + (corner >> 2)) + 2 * i + (corner & 1);
             v += fine.value[e];
             w += fine.weight[e];
           }
@@ -161,8 +167,9 @@ void Extension::pull(const Level& coarse, Level& fine) const {
 void Extension::plane(int k, double* out) const {
   thread_local Array<double> line;
   const Level& coarse = levels_.front();
-  interpolate_plane(coarse.value.data(), coarse.nodes, k, line,
-                    [&](int j, const double* row) { std::copy_n(row, grid_.nx(), out + std::size_t(j) * grid_.nx()); });
+  interpolate_plane(coarse.value.data(), coarse.nodes, k, line, [&](int j, const double* row) {
+    std::copy_n(row, grid_.nx(), out + std::size_t(j) * grid_.nx());
+  });
   const std::size_t first = std::size_t(k) * grid_.nx() * grid_.ny();
   for (int s = band_->plane_begin(k); s < band_->plane_begin(k + 1); s++) {
     double& v = out[band_->node()[s] - first];

@@ -11,15 +11,16 @@ class Extension {
 public:
   explicit Extension(const Grid& grid);
 
-  /// Notes which band entries have values of their own (known != 0) and where the others find theirs.
+  /// Notes which band entries have values of their own (known != 0) and where the others find
+  /// theirs.
   void prepare(const NarrowBand& band, std::span<const char> known);
 
-  /// Values of the other entries: linear interpolation, at the node's nearest point, of the known values around
-  /// it; `fallback` where there are none.
+  /// Values of the other entries: linear interpolation, at the node's nearest point, of the known
+  /// values around it; `fallback` where there are none.
   void complete(double fallback, std::span<double> value) const;
 
-  /// Prepares plane(): values of the band, tapered at its edge, and beyond it averages over ever larger cubes
-  /// (a push-pull pyramid, cell centred, hence mirror symmetric).
+  /// Prepares plane(): values of the band, tapered at its edge, and beyond it averages over ever
+  /// larger cubes (a push-pull pyramid, cell centred, hence mirror symmetric).
   void fill(const NarrowBand& band, std::span<const double> value);
 
   /// Extended values at the nodes of plane k.
@@ -31,7 +32,8 @@ private:
     Array<double> value, weight;
     std::size_t row(int j, int k) const { return (std::size_t(k) * nodes[1] + j) * nodes[0]; }
   };
-  /// An entry without a value of its own: weighted sum of the corners of the cell that its nearest point is in.
+  /// An entry without a value of its own: weighted sum of the corners of the cell that its nearest
+  /// point is in.
   struct Borrower {
     int entry, corner[8];
     double weight[8];

@@ -44,7 +44,8 @@ void Gauge::filter(LevelSet& phi, const NarrowBand& band) {
   change.coefficients = change_.data();
   parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
     const ConstPoints p = band.points();
-    kernels().cubic(change, end - begin, {p.x + begin, p.y + begin, p.z + begin}, &at_point_[begin]);
+    kernels().cubic(change, end - begin, {p.x + begin, p.y + begin, p.z + begin},
+                    &at_point_[begin]);
   });
   parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++) {
@@ -54,16 +55,18 @@ void Gauge::filter(LevelSet& phi, const NarrowBand& band) {
   });
 }
 
-double Gauge::renormalise(LevelSet& phi, const NarrowBand& band, std::span<const double> grad, Extension& extension,
-                          Fourier& fourier) const {
+double Gauge::renormalise(LevelSet& phi, const NarrowBand& band, std::span<const double> grad,
+                          Extension& extension, Fourier& fourier) const {
   const Grid& grid = phi.grid();
   const std::size_t plane = std::size_t(grid.nx()) * grid.ny();
   const double mean = gauge_range(band, grad).mean;
   std::vector<double> ratio(band.size());
-  for (std::size_t s = 0; s < band.size(); s++) ratio[s] = std::clamp(mean / std::max(grad[s], 1e-12), 1 / 3., 3.);
+  for (std::size_t s = 0; s < band.size(); s++)
+    ratio[s] = std::clamp(mean / std::max(grad[s], 1e-12), 1 / 3., 3.);
   extension.fill(band, ratio);
 
-  // Smooth over 1.5 spacings: sheets closer than that share a factor, which the zero set does not mind.
+  // Smooth over 1.5 spacings: sheets closer than that share a factor, which the zero set does not
+  // mind.
   const double length4 = std::pow(1.5 * grid.spacing, 4);
   auto smooth = [&](int ky, int kz, std::complex<double>* row) {
     const double across = fourier.k2(1, ky) + fourier.k2(2, kz);

@@ -12,15 +12,15 @@ class Gauge {
 public:
   explicit Gauge(const Grid& grid);
 
-  /// Damps grid-scale noise of the coefficients, -strength/48 sum_d delta_d^4 c in the band, less the value of
-  /// that change at each node's nearest point, so that the membrane keeps its place. Without it noise in
-  /// phi off the membrane grows until the step size suffers.
+  /// Damps grid-scale noise of the coefficients, -strength/48 sum_d delta_d^4 c in the band, less
+  /// the value of that change at each node's nearest point, so that the membrane keeps its place.
+  /// Without it noise in phi off the membrane grows until the step size suffers.
   void filter(LevelSet& phi, const NarrowBand& band);
 
-  /// Multiplies phi by a smooth positive factor that brings |grad phi| on the membrane to 1. `grad` holds
-  /// |grad phi| at the nearest points of all band nodes. Returns the mean factor.
-  double renormalise(LevelSet& phi, const NarrowBand& band, std::span<const double> grad, Extension& extension,
-                     Fourier& fourier) const;
+  /// Multiplies phi by a smooth positive factor that brings |grad phi| on the membrane to 1. `grad`
+  /// holds |grad phi| at the nearest points of all band nodes. Returns the mean factor.
+  double renormalise(LevelSet& phi, const NarrowBand& band, std::span<const double> grad,
+                     Extension& extension, Fourier& fourier) const;
 
 private:
   Array<double> change_; // on the grid; 0 off the band it was last filled for

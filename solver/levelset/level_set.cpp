@@ -7,7 +7,8 @@
 
 namespace lamella {
 
-LevelSet::LevelSet(const Grid& grid) : grid_(grid), coefficients_(grid.size(), 0.0), nodal_(grid.size(), 0.0) {}
+LevelSet::LevelSet(const Grid& grid)
+    : grid_(grid), coefficients_(grid.size(), 0.0), nodal_(grid.size(), 0.0) {}
 
 SplineView LevelSet::view() const {
   return {coefficients_.data(),

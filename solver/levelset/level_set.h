@@ -9,8 +9,9 @@
 
 namespace lamella {
 
-/// A smooth level set: degree-7 tensor B-spline on a periodic grid, negative inside the membrane {phi = 0}.
-/// phi need not be a distance; |grad phi| on the membrane should be of order 1 (see gauge.h).
+/// A smooth level set: degree-7 tensor B-spline on a periodic grid, negative inside the membrane
+/// {phi = 0}. phi need not be a distance; |grad phi| on the membrane should be of order 1 (see
+/// gauge.h).
 class LevelSet {
 public:
   explicit LevelSet(const Grid& grid);
@@ -25,9 +26,9 @@ public:
 
   void update_nodal();
 
-  /// Coefficients whose nodal values are `values`, but for grid-scale content (kinks far from the membrane), which
-  /// the spline would turn into ringing: the result of `sweeps` sweeps c <- c + (values - nodal(c)), found at once
-  /// in Fourier space.
+  /// Coefficients whose nodal values are `values`, but for grid-scale content (kinks far from the
+  /// membrane), which the spline would turn into ringing: the result of `sweeps` sweeps c <- c +
+  /// (values - nodal(c)), found at once in Fourier space.
   void fit(std::span<const double> values, Fourier& fourier, int sweeps = 8);
 
 private:

@@ -15,7 +15,8 @@ constexpr std::size_t chunk = 512;
 
 /// f(neighbour) for the up to six neighbours of a node.
 /// The band does not wrap: scenes keep the membrane clear of the sides of the box.
-template <class F> void for_each_neighbour(const Grid& grid, int node, F&& f) {
+template <class F>
+void for_each_neighbour(const Grid& grid, int node, F&& f) {
   const int nx = grid.nx(), nxy = nx * grid.ny();
   const int i = node % nx, j = node / nx % grid.ny(), k = node / nxy;
   if (i > 0) f(node - 1);
@@ -36,7 +37,8 @@ double distance2(const Grid& grid, int node, const double* p) {
 } // namespace
 
 NarrowBand::NarrowBand(const Grid& grid, double half_width)
-    : grid_(grid), half_width_(half_width), slot_(grid.size(), unset), plane_begin_(grid.nz() + 1, 0) {}
+    : grid_(grid), half_width_(half_width), slot_(grid.size(), unset),
+      plane_begin_(grid.nz() + 1, 0) {}
 
 void NarrowBand::update(const LevelSet& phi) {
   refresh(phi);
@@ -52,12 +54,13 @@ void NarrowBand::refresh(const LevelSet& phi) {
     kernels().closest_points(phi.view(), end - begin, {&x_[begin], &y_[begin], &z_[begin]},
                              {&px_[begin], &py_[begin], &pz_[begin]}, 1, false, step);
     for (std::size_t s = begin; s < end; s++)
-      distance_[s] = std::sqrt(square(x_[s] - px_[s]) + square(y_[s] - py_[s]) + square(z_[s] - pz_[s]));
+      distance_[s] =
+          std::sqrt(square(x_[s] - px_[s]) + square(y_[s] - py_[s]) + square(z_[s] - pz_[s]));
   });
 }
 
-/// Nodes whose neighbour knows a point that is nearer by a tenth of a spacing (another sheet has come closer)
-/// start again from it.
+/// Nodes whose neighbour knows a point that is nearer by a tenth of a spacing (another sheet has
+/// come closer) start again from it.
 void NarrowBand::repair(const LevelSet& phi) {
   std::vector<std::vector<Entry>> found((size() + chunk - 1) / chunk);
   parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
@@ -74,7 +77,8 @@ void NarrowBand::repair(const LevelSet& phi) {
           from = t;
         }
       });
-      if (from != unset) found[begin / chunk].push_back({node_[s], {px_[from], py_[from], pz_[from]}, 0});
+      if (from != unset)
+        found[begin / chunk].push_back({node_[s], {px_[from], py_[from], pz_[from]}, 0});
     }
   });
   std::vector<Entry> entries;
@@ -102,7 +106,8 @@ void NarrowBand::solve(const LevelSet& phi, std::vector<Entry>& entries, int ite
         p[d][s] = entries[begin + s].p[d];
       }
     }
-    kernels().closest_points(phi.view(), n, {x[0], x[1], x[2]}, {p[0], p[1], p[2]}, iterations, true, step);
+    kernels().closest_points(phi.view(), n, {x[0], x[1], x[2]}, {p[0], p[1], p[2]}, iterations,
+                             true, step);
     for (std::size_t s = 0; s < n; s++) {
       Entry& e = entries[begin + s];
       for (int d = 0; d < 3; d++) e.p[d] = p[d][s];
@@ -111,8 +116,8 @@ void NarrowBand::solve(const LevelSet& phi, std::vector<Entry>& entries, int ite
   });
 }
 
-/// Ends of sign-change edges that the band does not hold (all of them, for a new band), each with the nearest
-/// of its edges' crossings.
+/// Ends of sign-change edges that the band does not hold (all of them, for a new band), each with
+/// the nearest of its edges' crossings.
 std::vector<NarrowBand::Entry> NarrowBand::seeds(const LevelSet& phi) const {
   const std::span<const double> f = phi.nodal();
   const int nx = grid_.nx(), ny = grid_.ny(), nz = grid_.nz();
@@ -165,13 +170,15 @@ std::vector<NarrowBand::Entry> NarrowBand::neighbours(std::span<const Entry> fro
   return all;
 }
 
-/// March outwards from the band's outer nodes, and from sign changes of phi that the band does not cover.
+/// March outwards from the band's outer nodes, and from sign changes of phi that the band does not
+/// cover.
 void NarrowBand::grow(const LevelSet& phi) {
   constexpr int pending = -2;
   const double h = grid_.spacing, reach = half_width_ * h;
   std::vector<Entry> frontier, added;
   for (std::size_t s = 0; s < size(); s++)
-    if (distance_[s] > reach - 2 * h) frontier.push_back({node_[s], {px_[s], py_[s], pz_[s]}, distance_[s]});
+    if (distance_[s] > reach - 2 * h)
+      frontier.push_back({node_[s], {px_[s], py_[s], pz_[s]}, distance_[s]});
   std::vector<Entry> candidates = seeds(phi);
   for (bool first = true; first || !frontier.empty(); first = false) {
     std::vector<Entry> next = neighbours(frontier);
@@ -194,8 +201,11 @@ void NarrowBand::grow(const LevelSet& phi) {
 /// Drop nodes out of reach, take in the new ones, and keep everything in the order of the grid.
 void NarrowBand::rebuild(std::vector<Entry>& added) {
   const double reach = half_width_ * grid_.spacing;
-  if (added.empty() && std::all_of(distance_.begin(), distance_.end(), [=](double d) { return d <= reach; })) return;
-  std::sort(added.begin(), added.end(), [](const Entry& a, const Entry& b) { return a.node < b.node; });
+  if (added.empty() &&
+      std::all_of(distance_.begin(), distance_.end(), [=](double d) { return d <= reach; }))
+    return;
+  std::sort(added.begin(), added.end(),
+            [](const Entry& a, const Entry& b) { return a.node < b.node; });
   std::vector<Entry> kept;
   kept.reserve(size() + added.size());
   std::size_t a = 0;

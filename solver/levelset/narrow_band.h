@@ -15,8 +15,9 @@ public:
   /// half_width in grid spacings.
   NarrowBand(const Grid& grid, double half_width);
 
-  /// Follow the level set (nodal values up to date): one Newton step from the previous nearest point where
-  /// there is one, a breadth-first march from the sign changes of phi where there is none.
+  /// Follow the level set (nodal values up to date): one Newton step from the previous nearest
+  /// point where there is one, a breadth-first march from the sign changes of phi where there is
+  /// none.
   void update(const LevelSet& phi);
 
   const Grid& grid() const { return grid_; }

@@ -9,11 +9,13 @@ namespace {
 
 constexpr double centre = 0.5 * (QuadratureKernel::begin + QuadratureKernel::end);
 constexpr double radius = 0.5 * (QuadratureKernel::end - QuadratureKernel::begin);
-constexpr double beta = 11.8; // just under 2 pi radius, where the transform's first side lobe begins
+constexpr double beta =
+    11.8; // just under 2 pi radius, where the transform's first side lobe begins
 
 double profile(double u) { return std::exp(beta * (std::sqrt(1 - u * u) - 1)); }
 
-/// The profile on u in [-1, 1], scaled to int = 1 over d/h; linear between 4096 intervals, 1e-6 of its peak.
+/// The profile on u in [-1, 1], scaled to int = 1 over d/h; linear between 4096 intervals, 1e-6 of
+/// its peak.
 class Table {
 public:
   Table() {
@@ -22,7 +24,8 @@ public:
       value_[i] = profile(2. * i / intervals - 1);
       sum += value_[i];
     }
-    for (double& v : value_) v *= intervals / (2 * radius * sum); // trapezoidal rule; the ends are e^-beta
+    for (double& v : value_)
+      v *= intervals / (2 * radius * sum); // trapezoidal rule; the ends are e^-beta
   }
   double operator()(double u) const {
     const double r = 0.5 * (u + 1) * intervals;

@@ -38,8 +38,8 @@ double smallest_radius_of_curvature(const Shape& shape);
 /// represents exactly, scaled so that |grad phi| on the surface lies around 1: from
 /// sqrt(c / a) to sqrt(a / c) for semi-axes from c to a. It levels off as W tanh(phi / W), W the
 /// larger of 16 spacings and a quarter of the box, so that it is nearly periodic. (A
-/// first-order distance, f / |grad f|, is smooth too, but not on the scale of a thin rim: at 64^3 it
-/// put an error of 70 % into Lap_s K_M at the rim of the oblate with reduced volume 0.6.)
+/// first-order distance, f / |grad f|, is smooth too, but not on the scale of a thin rim: at 64^3
+/// it put an error of 70 % into Lap_s K_M at the rim of the oblate with reduced volume 0.6.)
 std::vector<double> initial_phi(const Shape& shape, const Grid& grid);
 
 /// The scaled polynomial at one point of unbounded space.

@@ -1,6 +1,6 @@
 // Cost of a step and of its parts. In one run, so that ratios hold on a noisy machine:
-//   lamella_bench --benchmark_filter=Step     milliseconds a step, and steps in units of one FFTW pair
-//   lamella_bench --benchmark_filter=Run      the whole Fig. 3 oblate run, with its errors
+//   lamella_bench --benchmark_filter=Step     milliseconds a step, and steps in units of one FFTW
+//   pair lamella_bench --benchmark_filter=Run      the whole Fig. 3 oblate run, with its errors
 //   LAMELLA_KERNELS=avx2 lamella_bench ...    the same with other kernels
 #include "dynamics/simulation.h"
 #include "parallel.h"
@@ -13,7 +13,9 @@
 namespace lamella {
 namespace {
 
-Scene oblate_at(int nodes) { return builtin_scene("fig3_oblate", std::vector{"grid.nodes=" + std::to_string(nodes)}); }
+Scene oblate_at(int nodes) {
+  return builtin_scene("fig3_oblate", std::vector{"grid.nodes=" + std::to_string(nodes)});
+}
 
 double seconds_of(auto&& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -21,10 +23,12 @@ double seconds_of(auto&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// One real-to-complex and one complex-to-real transform of the whole box on one thread, as FFTW does them.
+/// One real-to-complex and one complex-to-real transform of the whole box on one thread, as FFTW
+/// does them.
 class FftwPair {
 public:
-  explicit FftwPair(int n) : real_(std::size_t(n) * n * n, 1.), complex_(std::size_t(n) * n * (n / 2 + 1)) {
+  explicit FftwPair(int n)
+      : real_(std::size_t(n) * n * n, 1.), complex_(std::size_t(n) * n * (n / 2 + 1)) {
     auto* modes = reinterpret_cast<fftw_complex*>(complex_.data());
     forward_ = fftw_plan_dft_r2c_3d(n, n, n, real_.data(), modes, FFTW_MEASURE);
     backward_ = fftw_plan_dft_c2r_3d(n, n, n, modes, real_.data(), FFTW_MEASURE);
@@ -49,7 +53,13 @@ void BM_FftwPair(benchmark::State& state) {
   FftwPair pair(int(state.range(0)));
   for (auto _ : state) pair.run();
 }
-BENCHMARK(BM_FftwPair)->Arg(48)->Arg(64)->Arg(96)->Arg(128)->Unit(benchmark::kMillisecond)->MinTime(0.3);
+BENCHMARK(BM_FftwPair)
+    ->Arg(48)
+    ->Arg(64)
+    ->Arg(96)
+    ->Arg(128)
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(0.3);
 
 /// A step of the oblate run, once it is under way. Arguments: nodes, threads.
 void BM_Step(benchmark::State& state) {
@@ -69,10 +79,10 @@ void BM_Step(benchmark::State& state) {
   set_thread_count(0);
 }
 BENCHMARK(BM_Step)
-  ->ArgsProduct({{48, 64, 96, 128}, {1, 2}})
-  ->Unit(benchmark::kMillisecond)
-  ->UseManualTime()
-  ->Iterations(30);
+    ->ArgsProduct({{48, 64, 96, 128}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(30);
 
 /// The whole run to t = 1.6e-3; counters: steps and errors of int K_M^2, P and sigma at the end.
 void BM_Run(benchmark::State& state) {
@@ -89,10 +99,14 @@ void BM_Run(benchmark::State& state) {
   }
   set_thread_count(0);
 }
-BENCHMARK(BM_Run)->ArgsProduct({{32, 48, 64, 96, 128}, {2}})->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(BM_Run)
+    ->ArgsProduct({{32, 48, 64, 96, 128}, {2}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 
 /// Order-4 jets, order-2 curvatures and nearest points, nanoseconds a point, one thread.
-template <class F> void per_point(benchmark::State& state, F&& work) {
+template <class F>
+void per_point(benchmark::State& state, F&& work) {
   Simulation sim(oblate_at(64));
   const Frame frame = sim.frame();
   LevelSet phi(frame.grid);
@@ -107,21 +121,25 @@ template <class F> void per_point(benchmark::State& state, F&& work) {
                              out[4].data(), out[5].data(), out[6].data(), out[7].data()};
   for (auto _ : state) work(phi, band, arrays);
   state.counters["ns_per_point"] =
-    benchmark::Counter(double(n) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      benchmark::Counter(double(n) * 1e-9, benchmark::Counter::kIsIterationInvariantRate |
+                                               benchmark::Counter::kInvert);
 }
 void BM_Jets(benchmark::State& state) {
   per_point(state, [](const LevelSet& phi, NarrowBand& band, const SurfaceArrays& out) {
-    kernels().jets(phi.view(), band.size(), {band.points().x, band.points().y, band.points().z}, out);
+    kernels().jets(phi.view(), band.size(), {band.points().x, band.points().y, band.points().z},
+                   out);
   });
 }
 void BM_Curvatures(benchmark::State& state) {
   per_point(state, [](const LevelSet& phi, NarrowBand& band, const SurfaceArrays& out) {
-    kernels().curvatures(phi.view(), band.size(), {band.points().x, band.points().y, band.points().z}, out);
+    kernels().curvatures(phi.view(), band.size(),
+                         {band.points().x, band.points().y, band.points().z}, out);
   });
 }
 void BM_NearestPoints(benchmark::State& state) {
   per_point(state, [](const LevelSet& phi, NarrowBand& band, const SurfaceArrays& out) {
-    kernels().closest_points(phi.view(), band.size(), band.positions(), band.points(), 1, false, out.phi);
+    kernels().closest_points(phi.view(), band.size(), band.positions(), band.points(), 1, false,
+                             out.phi);
   });
 }
 BENCHMARK(BM_Jets)->Unit(benchmark::kMillisecond);

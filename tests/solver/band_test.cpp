@@ -45,7 +45,8 @@ TEST(NarrowBand, FollowsAMovingMembrane) {
   ASSERT_NEAR(double(fresh.size()), double(s.band.size()), 0.005 * double(fresh.size()));
   for (std::size_t i = 0; i < fresh.size(); i++) {
     const int slot = s.band.slot(fresh.node()[i]);
-    if (slot < 0 || std::abs(fresh.distance()[i] - 0.75 * grid40.spacing) > 2.75 * grid40.spacing) continue;
+    if (slot < 0 || std::abs(fresh.distance()[i] - 0.75 * grid40.spacing) > 2.75 * grid40.spacing)
+      continue;
     EXPECT_NEAR(s.band.distance()[slot], fresh.distance()[i], 1e-4 * grid40.spacing);
   }
 }
@@ -103,15 +104,22 @@ TEST(Components, AreCountedAcrossTheSidesOfTheBox) {
   EXPECT_EQ(count([](const Vec3& x) { return std::abs(x[1]) > 0.7; }), 1);
   EXPECT_EQ(count([](const Vec3& x) { return std::abs(x[2]) > 0.7; }), 1);
   EXPECT_EQ(count([](const Vec3& x) { return std::abs(std::abs(x[2]) - 0.5) < 0.2; }), 2);
-  EXPECT_EQ(count([](const Vec3& x) { return std::abs(std::abs(x[0]) - 0.5) < 0.2 && std::abs(x[1]) < 0.5; }), 2);
-  EXPECT_EQ(count([](const Vec3& x) { return std::hypot(x[0], x[1]) > 0.5 && std::hypot(x[0], x[1]) < 0.8; }), 1);
+  EXPECT_EQ(count([](const Vec3& x) {
+              return std::abs(std::abs(x[0]) - 0.5) < 0.2 && std::abs(x[1]) < 0.5;
+            }),
+            2);
+  EXPECT_EQ(count([](const Vec3& x) {
+              return std::hypot(x[0], x[1]) > 0.5 && std::hypot(x[0], x[1]) < 0.8;
+            }),
+            1);
 }
 
 TEST(Fourier, ForwardAndBackwardIsIdentityForOddShapesToo) {
   const Grid g{{24, 16, 40}, 0.1};
   Fourier fourier(g);
   std::vector<double> in(g.size()), out(g.size());
-  for (std::size_t i = 0; i < in.size(); i++) in[i] = std::sin(0.37 * double(i)) + 0.1 * double(i % 7);
+  for (std::size_t i = 0; i < in.size(); i++)
+    in[i] = std::sin(0.37 * double(i)) + 0.1 * double(i % 7);
   const std::size_t plane = 24 * 16;
   fourier.apply([&](int k, double* p) { std::copy_n(&in[k * plane], plane, p); },
                 [](int, int, std::complex<double>*) {},
@@ -123,24 +131,27 @@ TEST(Fourier, WaveNumbersDifferentiate) {
   const Grid g{{24, 16, 40}, 0.1};
   Fourier fourier(g);
   const double kz = 3 * 2 * M_PI / g.length(2), ky = 2 * 2 * M_PI / g.length(1);
-  auto f = [&](std::size_t i) { return std::cos(kz * g.position(i)[2]) + std::sin(ky * g.position(i)[1]); };
+  auto f = [&](std::size_t i) {
+    return std::cos(kz * g.position(i)[2]) + std::sin(ky * g.position(i)[1]);
+  };
   const std::size_t plane = 24 * 16;
   double worst = 0;
   fourier.apply(
-    [&](int k, double* p) {
-      for (std::size_t i = 0; i < plane; i++) p[i] = f(k * plane + i);
-    },
-    [&](int jy, int jz, std::complex<double>* row) {
-      for (int jx = 0; jx < fourier.row_modes(); jx++)
-        row[jx] *= (fourier.k2(0, jx) + fourier.k2(1, jy) + fourier.k2(2, jz)) / double(g.size());
-    },
-    [&](int k, const double* p) {
-      if (k != 7) return;
-      for (std::size_t i = 0; i < plane; i++) {
-        const Vec3 x = g.position(k * plane + i);
-        worst = std::max(worst, std::abs(p[i] - kz * kz * std::cos(kz * x[2]) - ky * ky * std::sin(ky * x[1])));
-      }
-    });
+      [&](int k, double* p) {
+        for (std::size_t i = 0; i < plane; i++) p[i] = f(k * plane + i);
+      },
+      [&](int jy, int jz, std::complex<double>* row) {
+        for (int jx = 0; jx < fourier.row_modes(); jx++)
+          row[jx] *= (fourier.k2(0, jx) + fourier.k2(1, jy) + fourier.k2(2, jz)) / double(g.size());
+      },
+      [&](int k, const double* p) {
+        if (k != 7) return;
+        for (std::size_t i = 0; i < plane; i++) {
+          const Vec3 x = g.position(k * plane + i);
+          worst = std::max(worst, std::abs(p[i] - kz * kz * std::cos(kz * x[2]) -
+                                           ky * ky * std::sin(ky * x[1])));
+        }
+      });
   EXPECT_LT(worst, 1e-10);
 }
 

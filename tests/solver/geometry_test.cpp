@@ -17,7 +17,8 @@ using ExactAt = std::function<Exact(const Vec3&)>;
 /// Torus about z: K_M = -(1/r + cos t / w), w = R + r cos t.
 ExactAt exact_torus(double R, double r) {
   return [=](const Vec3& p) {
-    const double rho = std::hypot(p[0], p[1]), c = (rho - R) / std::hypot(rho - R, p[2]), w = R + r * c;
+    const double rho = std::hypot(p[0], p[1]), c = (rho - R) / std::hypot(rho - R, p[2]),
+                 w = R + r * c;
     return Exact{-(1 / r + c / w), c / (r * w), R * (R * c + r) / (r * r * w * w * w)};
   };
 }
@@ -34,7 +35,8 @@ long double mean_curvature(const Vec3& axes, const long double* x) {
   return (s * trace - quadratic) / (s * std::sqrt(s));
 }
 
-/// Ellipsoid: the surface Laplacian by Eq. 58 (corrected) with sixth-order differences of the exact K_M.
+/// Ellipsoid: the surface Laplacian by Eq. 58 (corrected) with sixth-order differences of the exact
+/// K_M.
 ExactAt exact_ellipsoid(const Vec3& axes) {
   return [=](const Vec3& p) {
     const long double h = 2e-3L * axes[2];
@@ -45,7 +47,8 @@ ExactAt exact_ellipsoid(const Vec3& axes) {
     auto along = [&](const long double* u, int order) { // directional derivative along u
       auto f = [&](int m) { return F(m * h * u[0], m * h * u[1], m * h * u[2]); };
       if (order == 1) return ((f(3) - f(-3)) - 9 * (f(2) - f(-2)) + 45 * (f(1) - f(-1))) / (60 * h);
-      return (2 * (f(3) + f(-3)) - 27 * (f(2) + f(-2)) + 270 * (f(1) + f(-1)) - 490 * f(0)) / (180 * h * h);
+      return (2 * (f(3) + f(-3)) - 27 * (f(2) + f(-2)) + 270 * (f(1) + f(-1)) - 490 * f(0)) /
+             (180 * h * h);
     };
     long double n[3], s = 0;
     for (int d = 0; d < 3; d++) {
@@ -54,7 +57,8 @@ ExactAt exact_ellipsoid(const Vec3& axes) {
     }
     for (long double& c : n) c /= std::sqrt(s);
     const long double ex[3] = {1, 0, 0}, ey[3] = {0, 1, 0}, ez[3] = {0, 0, 1}, KM = F(0, 0, 0);
-    const long double lap = along(ex, 2) + along(ey, 2) + along(ez, 2) + KM * along(n, 1) - along(n, 2);
+    const long double lap =
+        along(ex, 2) + along(ey, 2) + along(ez, 2) + KM * along(n, 1) - along(n, 2);
     const double product = axes[0] * axes[1] * axes[2] * double(s);
     return Exact{double(KM), 1 / (product * product), double(lap)};
   };
@@ -86,9 +90,9 @@ struct Case {
 };
 
 const Case cases[] = {
-  {"oblate", oblate(0.7, 0.6), exact_ellipsoid({0.7, 0.7, oblate_axis_ratio(0.6) * 0.7}), 3e-5},
-  {"triaxial", ellipsoid({0.6, 0.45, 0.35}), exact_ellipsoid({0.6, 0.45, 0.35}), 1e-5},
-  {"torus", torus(0.5, 0.2), exact_torus(0.5, 0.2), 5e-4},
+    {"oblate", oblate(0.7, 0.6), exact_ellipsoid({0.7, 0.7, oblate_axis_ratio(0.6) * 0.7}), 3e-5},
+    {"triaxial", ellipsoid({0.6, 0.45, 0.35}), exact_ellipsoid({0.6, 0.45, 0.35}), 1e-5},
+    {"torus", torus(0.5, 0.2), exact_torus(0.5, 0.2), 5e-4},
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -103,7 +107,8 @@ TEST_P(Static, SurfaceLaplacianConvergesAtThirdOrderOrBetter) {
   const Errors fine = errors_of(StartSurface(c.shape, Grid::cube(96, 1)), c.exact);
   const double order = std::log(coarse.lap_KM / fine.lap_KM) / std::log(96. / 64);
   EXPECT_GE(order, 3) << coarse.lap_KM << " -> " << fine.lap_KM;
-  std::printf("relative errors at 64^3, 96^3: Lap_s K_M %.1e, %.1e (order %.1f); K_M %.1e, %.1e; K %.1e, %.1e\n",
+  std::printf("relative errors at 64^3, 96^3: Lap_s K_M %.1e, %.1e (order %.1f); K_M %.1e, %.1e; K "
+              "%.1e, %.1e\n",
               coarse.lap_KM, fine.lap_KM, order, coarse.KM, fine.KM, coarse.K, fine.K);
   EXPECT_LT(fine.KM, coarse.KM);
   EXPECT_LT(fine.K, coarse.K);
@@ -123,7 +128,8 @@ TEST_P(Static, AreaAndVolumeTo5e5At64WhereverTheShapeLies) {
   for (const Shape& s : {c.shape, moved(c.shape, {0.31 * h, 0.17 * h, -0.43 * h}, 0),
                          moved(c.shape, {0.5 * h, -0.23 * h, 0.11 * h}, 27)}) {
     const SurfaceIntegrals sums = integrate(StartSurface(s, Grid::cube(64, 1)).geometry, {}, {});
-    std::printf("area error %.1e, volume error %.1e\n", sums.area() / exact_area(s) - 1, sums.volume / exact_volume(s) - 1);
+    std::printf("area error %.1e, volume error %.1e\n", sums.area() / exact_area(s) - 1,
+                sums.volume / exact_volume(s) - 1);
     EXPECT_NEAR(sums.area() / exact_area(s), 1, 5e-5);
     EXPECT_NEAR(sums.volume / exact_volume(s), 1, 5e-5);
   }
@@ -131,7 +137,8 @@ TEST_P(Static, AreaAndVolumeTo5e5At64WhereverTheShapeLies) {
 
 TEST_P(Static, GaussBonnet) {
   const Case& c = GetParam();
-  const SurfaceIntegrals sums = integrate(StartSurface(c.shape, Grid::cube(64, 1)).geometry, {}, {});
+  const SurfaceIntegrals sums =
+      integrate(StartSurface(c.shape, Grid::cube(64, 1)).geometry, {}, {});
   const int genus = c.shape.kind == ShapeKind::torus;
   EXPECT_NEAR(sums.int_K() / (4 * M_PI), 1 - genus, 5e-4);
 }
@@ -141,20 +148,25 @@ TEST(Static, SphereIsExact) {
   const SurfaceIntegrals sums = integrate(s.geometry, {}, {});
   EXPECT_NEAR(sums.int_KM2(), 16 * M_PI, 1e-4);
   double worst = 0;
-  for (std::size_t i = 0; i < s.geometry.size(); i++) worst = std::max(worst, std::abs(s.geometry.KM()[i] + 4));
+  for (std::size_t i = 0; i < s.geometry.size(); i++)
+    worst = std::max(worst, std::abs(s.geometry.KM()[i] + 4));
   EXPECT_LT(worst, 1e-6);
 }
 
-// ---------------------------------------------------------------------------------------- variations
+// ----------------------------------------------------------------------------------------
+// variations
 
-double bump(const Vec3& x) { return std::cos(3 * x[0] + 0.3) * std::sin(2.5 * x[1] + 0.7) + 0.4 * std::cos(4 * x[2]); }
+double bump(const Vec3& x) {
+  return std::cos(3 * x[0] + 0.3) * std::sin(2.5 * x[1] + 0.7) + 0.4 * std::cos(4 * x[2]);
+}
 
 /// What a degree-7 spline makes of a wave of its coefficients.
 double transmission(double k, double h) { return std::pow(std::sin(k * h / 2) / (k * h / 2), 8); }
 
 /// Coefficients of the spline that is the bump.
 double bump_coefficient(const Vec3& x, double h) {
-  return std::cos(3 * x[0] + 0.3) * std::sin(2.5 * x[1] + 0.7) / (transmission(3, h) * transmission(2.5, h)) +
+  return std::cos(3 * x[0] + 0.3) * std::sin(2.5 * x[1] + 0.7) /
+             (transmission(3, h) * transmission(2.5, h)) +
          0.4 * std::cos(4 * x[2]) / transmission(4, h);
 }
 
@@ -165,7 +177,8 @@ struct Varied {
 /// Integrals with phi changed by amount * bump.
 Varied varied(const Shape& shape, const Helfrich& bending, double amount) {
   StartSurface s(shape, Grid::cube(64, 1));
-  for (std::size_t i = 0; i < s.grid.size(); i++) s.phi.coefficients()[i] += amount * bump_coefficient(s.grid.position(i), s.grid.spacing);
+  for (std::size_t i = 0; i < s.grid.size(); i++)
+    s.phi.coefficients()[i] += amount * bump_coefficient(s.grid.position(i), s.grid.spacing);
   s.measure();
   const SurfaceIntegrals sums = integrate(s.geometry, bending, {});
   return {sums.energy, sums.area(), sums.volume, sums.int_KM()};
@@ -189,7 +202,8 @@ TEST(Variation, OfEnergyAreaVolumeAndMeanCurvature) {
         dM -= 2 * w * u * K;
       }
       // The quadrature's error, 5e-6, has the period of the grid: its derivative is 1e-3.
-      EXPECT_NEAR((plus.energy - minus.energy) / (2 * e), dE, 1e-3 * std::abs(dE) + 0.1) << "C = " << C;
+      EXPECT_NEAR((plus.energy - minus.energy) / (2 * e), dE, 1e-3 * std::abs(dE) + 0.1)
+          << "C = " << C;
       EXPECT_NEAR((plus.area - minus.area) / (2 * e), dA, 1e-3 * std::abs(dA) + 1e-3);
       EXPECT_NEAR((plus.volume - minus.volume) / (2 * e), dV, 1e-3 * std::abs(dV) + 1e-3);
       EXPECT_NEAR((plus.int_KM - minus.int_KM) / (2 * e), dM, 1e-3 * std::abs(dM) + 0.02);

@@ -8,17 +8,20 @@
 namespace lamella {
 namespace {
 
-/// Quadric x^2/a^2 + y^2/b^2 + z^2/c^2 - 1, which a degree-7 spline holds exactly away from the box sides.
+/// Quadric x^2/a^2 + y^2/b^2 + z^2/c^2 - 1, which a degree-7 spline holds exactly away from the box
+/// sides.
 struct Quadric {
   static constexpr double a = 0.5, b = 0.45, c = 0.4;
   LevelSet phi{Grid::cube(48, 1)};
 
   Quadric() {
     const Grid& g = phi.grid();
-    const double variance = 2. / 3 * g.spacing * g.spacing; // of the spline: x^2 has coefficients x^2 - variance
+    const double variance =
+        2. / 3 * g.spacing * g.spacing; // of the spline: x^2 has coefficients x^2 - variance
     for (std::size_t i = 0; i < g.size(); i++) {
       const Vec3 x = g.position(i);
-      phi.coefficients()[i] = (x[0] * x[0] - variance) / (a * a) + (x[1] * x[1] - variance) / (b * b) +
+      phi.coefficients()[i] = (x[0] * x[0] - variance) / (a * a) +
+                              (x[1] * x[1] - variance) / (b * b) +
                               (x[2] * x[2] - variance) / (c * c) - 1;
     }
   }
@@ -29,7 +32,8 @@ struct Cloud {
   ConstPoints points() const { return {x.data(), y.data(), z.data()}; }
 };
 
-/// Points on the quadric scaled by `factor`; 203 of them, so that the last group of eight is not full.
+/// Points on the quadric scaled by `factor`; 203 of them, so that the last group of eight is not
+/// full.
 Cloud on_quadric(double factor) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -55,13 +59,15 @@ TEST_P(EachKernels, FindCurvaturesOfAnEllipsoid) {
   std::vector<double> out[8];
   for (auto& o : out) o.resize(n);
   GetParam()->jets(q.phi.view(), n, p.points(),
-                   {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(), out[5].data(),
-                    out[6].data(), out[7].data()});
+                   {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(),
+                    out[5].data(), out[6].data(), out[7].data()});
   for (std::size_t i = 0; i < n; i++) {
     const double a2 = q.a * q.a, b2 = q.b * q.b, c2 = q.c * q.c;
-    const double s = p.x[i] * p.x[i] / (a2 * a2) + p.y[i] * p.y[i] / (b2 * b2) + p.z[i] * p.z[i] / (c2 * c2);
+    const double s =
+        p.x[i] * p.x[i] / (a2 * a2) + p.y[i] * p.y[i] / (b2 * b2) + p.z[i] * p.z[i] / (c2 * c2);
     const double r2 = p.x[i] * p.x[i] + p.y[i] * p.y[i] + p.z[i] * p.z[i];
-    const double K = 1 / (s * s * a2 * b2 * c2), KM = -(a2 + b2 + c2 - r2) / (a2 * b2 * c2 * std::pow(s, 1.5));
+    const double K = 1 / (s * s * a2 * b2 * c2),
+                 KM = -(a2 + b2 + c2 - r2) / (a2 * b2 * c2 * std::pow(s, 1.5));
     EXPECT_NEAR(out[0][i], 0, 1e-13);
     EXPECT_NEAR(out[1][i], p.x[i] / a2 / std::sqrt(s), 1e-12);
     EXPECT_NEAR(out[4][i], 2 * std::sqrt(s), 1e-11);
@@ -78,12 +84,14 @@ TEST_P(EachKernels, AgreeWithEachOther) {
     std::vector<double> out[8];
     for (auto& o : out) o.resize(n);
     k.jets(q.phi.view(), n, p.points(),
-           {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(), out[5].data(), out[6].data(),
-            out[7].data()});
+           {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(),
+            out[5].data(), out[6].data(), out[7].data()});
     return out[7];
   };
-  const std::vector<double> mine = lap_KM(*GetParam()), theirs = lap_KM(*available_kernels().front());
-  for (std::size_t i = 0; i < n; i++) EXPECT_NEAR(mine[i], theirs[i], 1e-8 * std::abs(theirs[i]) + 1e-8);
+  const std::vector<double> mine = lap_KM(*GetParam()),
+                            theirs = lap_KM(*available_kernels().front());
+  for (std::size_t i = 0; i < n; i++)
+    EXPECT_NEAR(mine[i], theirs[i], 1e-8 * std::abs(theirs[i]) + 1e-8);
 }
 
 TEST_P(EachKernels, FindNearestPoints) {
@@ -91,8 +99,8 @@ TEST_P(EachKernels, FindNearestPoints) {
   const Cloud x = on_quadric(1.1), start = on_quadric(1);
   Cloud p = start;
   std::vector<double> step(x.x.size());
-  GetParam()->closest_points(q.phi.view(), x.x.size(), x.points(), {p.x.data(), p.y.data(), p.z.data()}, 8, true,
-                             step.data());
+  GetParam()->closest_points(q.phi.view(), x.x.size(), x.points(),
+                             {p.x.data(), p.y.data(), p.z.data()}, 8, true, step.data());
   for (std::size_t i = 0; i < step.size(); i++) {
     EXPECT_GE(step[i], 0);
     const double g[3] = {p.x[i] / (q.a * q.a), p.y[i] / (q.b * q.b), p.z[i] / (q.c * q.c)};
@@ -106,7 +114,8 @@ TEST_P(EachKernels, FindNearestPoints) {
 TEST_P(EachKernels, WrapAroundTheBox) {
   LevelSet phi(Grid::cube(16, 1));
   for (std::size_t i = 0; i < phi.grid().size(); i++)
-    phi.coefficients()[i] = std::cos(M_PI * phi.grid().position(i)[0]) + std::sin(M_PI * phi.grid().position(i)[2]);
+    phi.coefficients()[i] =
+        std::cos(M_PI * phi.grid().position(i)[0]) + std::sin(M_PI * phi.grid().position(i)[2]);
   Cloud inside, outside;
   for (double s : {0.93, -0.97, 0.1}) {
     inside.x.push_back(s), inside.y.push_back(0.2), inside.z.push_back(-s);
@@ -132,7 +141,8 @@ TEST(LevelSet, FitReproducesSmoothValues) {
   }
   phi.fit(values, fourier);
   double worst = 0;
-  for (std::size_t i = 0; i < grid.size(); i++) worst = std::max(worst, std::abs(phi.nodal()[i] - values[i]));
+  for (std::size_t i = 0; i < grid.size(); i++)
+    worst = std::max(worst, std::abs(phi.nodal()[i] - values[i]));
   EXPECT_LT(worst, 1e-6);
 }
 

@@ -61,13 +61,15 @@ double interpolated(const std::vector<std::vector<double>>& rows, double x, int 
 
 double worst_drift(const std::vector<Measures>& history) {
   double worst = 0;
-  for (const Measures& m : history) worst = std::max({worst, std::abs(m.area_drift), std::abs(m.volume_drift)});
+  for (const Measures& m : history)
+    worst = std::max({worst, std::abs(m.area_drift), std::abs(m.volume_drift)});
   return worst;
 }
 
 double largest_rise(const std::vector<Measures>& history) {
   double rise = 0;
-  for (std::size_t i = 1; i < history.size(); i++) rise = std::max(rise, history[i].energy - history[i - 1].energy);
+  for (std::size_t i = 1; i < history.size(); i++)
+    rise = std::max(rise, history[i].energy - history[i - 1].energy);
   return rise;
 }
 
@@ -148,8 +150,9 @@ TEST(Relaxation, DoesNotDependOnPlaceAndOrientation) {
   const double h = 2. / 64;
   const Shape start = oblate(0.7, 0.6);
   const double aligned = run(scene_of(start, 64, 1.6e-3)).back().energy;
-  for (const Shape& s : {moved(start, {0.37 * h, -0.21 * h, 0.45 * h}, 0), moved(start, {0, 0, 0}, 0.7),
-                         moved(start, {0.2 * h, 0.5 * h, -0.3 * h}, 38)})
+  for (const Shape& s :
+       {moved(start, {0.37 * h, -0.21 * h, 0.45 * h}, 0), moved(start, {0, 0, 0}, 0.7),
+        moved(start, {0.2 * h, 0.5 * h, -0.3 * h}, 38)})
     EXPECT_NEAR(run(scene_of(s, 64, 1.6e-3)).back().energy / aligned, 1, 5e-4);
 }
 
@@ -228,7 +231,8 @@ TEST(Simulation, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-/// Runs until RunError, whose message must hold `words`, and checks that the last good state is still there.
+/// Runs until RunError, whose message must hold `words`, and checks that the last good state is
+/// still there.
 void expect_stop(const Scene& scene, const char* words) {
   Simulation sim(scene);
   Measures last = sim.measures();
