@@ -13,20 +13,25 @@
 namespace lamella {
 
 namespace {
-constexpr double band_half_width = 4.2; // spacings: the spline's reach and a little more
-constexpr double worst_drift =
-    5e-6; // relative error of volume and area that a recorded state may have
-constexpr double hopeless_drift = 1e-5; // more cannot be recorded: the run stops
+// Lengths in grid spacings. The band: the spline's reach and a little more.
+constexpr double band_half_width = 4.2;
+// Kept free at the sides of the box: the reach of the quadrature kernel.
+constexpr double margin = 2.75;
+// Largest |F| in kappa / h^3: more is an unresolved tip.
+constexpr double force_limit = 1;
+
+// Relative error of volume and area: what the start may have against the exact shape (of a sphere
+// quadrature gets one or the other right), what is good enough to be recorded, and what stops a
+// run.
+constexpr double start_drift = 1e-4, worst_drift = 5e-6, hopeless_drift = 1e-5;
 constexpr int most_projections = 8;
-constexpr double memory =
-    0.9; // of changes beyond first order; on a sphere they cannot be made up for
-constexpr double force_limit = 1; // kappa / h^3: more is an unresolved tip
-constexpr double gauge_limit =
-    1.2; // |grad phi| over its mean; where it varies more the step loses stability
+// Of what steps add to volume and area beyond first order; on a sphere it cannot be made up for.
+constexpr double memory = 0.9;
+
+// |grad phi| over its mean; where it varies more the step loses stability.
+constexpr double gauge_limit = 1.2;
 constexpr int steps_between_renormalisations = 5;
 constexpr int steps_between_responses = 4;
-constexpr double margin =
-    2.75; // spacings kept free at the sides of the box: the reach of the quadrature kernel
 
 double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 } // namespace
@@ -44,8 +49,7 @@ Simulation::Simulation(const Scene& scene)
   area_ = exact_area(scene.shape);
   volume_ = exact_volume(scene.shape);
   measure();
-  if (drift() < 1e-3) { // as near to the shape as quadrature can tell: of a sphere either volume or
-                        // area is off
+  if (drift() < start_drift) {
     area_ = integrals_.area();
     volume_ = integrals_.volume;
   }
@@ -73,8 +77,8 @@ void Simulation::measure() {
   surface_.curvatures(phi_, band_);
   integrals_ = integrate(surface_, bending_, {});
   if (steps_ > 0) {
-    volume_curvature_ = memory * volume_curvature_ + integrals_.volume - volume_;
-    area_curvature_ = memory * area_curvature_ + integrals_.area() - area_;
+    volume_excess_ = memory * volume_excess_ + integrals_.volume - volume_;
+    area_excess_ = memory * area_excess_ + integrals_.area() - area_;
   }
   project();
   measure_forces();
@@ -226,8 +230,8 @@ void Simulation::apply_constrained() {
     });
   }
   Eigen::Matrix2d change = Eigen::Matrix2d::Zero(); // of volume and area, with factor and constant
-  Eigen::Vector2d wanted{volume_ - integrals_.volume - volume_curvature_,
-                         area_ - integrals_.area() - area_curvature_};
+  Eigen::Vector2d wanted{volume_ - integrals_.volume - volume_excess_,
+                         area_ - integrals_.area() - area_excess_};
   for (std::size_t i = 0; i < n; i++) {
     const double w = -surface_.weight()[i] / surface_.grad()[i], KM = surface_.KM()[i];
     const Eigen::Vector2d effect{w, -w * KM};
