@@ -27,6 +27,7 @@ public:
 
   void check() const {
     name();
+    title();
     for (const Key& key : scene_keys())
       if (key.belongs_to(scene_.shape.kind)) range(key);
     torus_closes();
@@ -47,10 +48,17 @@ private:
     throw SceneError(fmt::format("{}{}: {}", blamed.place, label, what));
   }
 
+  static bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
+
+  void title() const {
+    if (std::ranges::any_of(scene_.title, is_control) || scene_.title.size() > 200)
+      refuse({"title"}, "not a line of text; allowed: at most 200 letters, digits and signs");
+  }
+
   void name() const {
     const std::string& name = scene_.name;
     const bool has_odd = std::ranges::any_of(
-        name, [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '/' || c == '\\'; });
+        name, [](unsigned char c) { return is_control(c) || c == '/' || c == '\\'; });
     if (has_odd || name.starts_with('.') || name.size() > 100)
       refuse({"name"},
              fmt::format("{} cannot name a folder; allowed: at most 100 letters, digits and signs "

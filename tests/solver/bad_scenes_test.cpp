@@ -67,6 +67,8 @@ std::vector<BadScene> bad_scenes() {
        "bad.toml:1: [grid] nodes: a section does not fit", "integer"},
       {"ControlCharactersInAKey", "[grid]\n\"no\\ndes\\u001b\" = 64\n",
        "bad.toml:2: [grid] no?des?: unknown key", "nodes"},
+      {"TitleOfTwoLines", "title = \"two\\nlines\"\n" + fine, "bad.toml:1: title: not a line of text",
+       "at most 200"},
       {"NameThatLeavesTheFolder", "name = \"../x\"\n" + fine,
        "bad.toml:1: name:", "cannot name a folder"},
 

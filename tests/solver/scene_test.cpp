@@ -93,7 +93,7 @@ frames = 5
 
 TEST(Scene, IsTheSameAfterWritingAndReading) {
   for (const char* kind : {"sphere", "oblate", "prolate", "ellipsoid", "torus"}) {
-    const Overrides changes{std::string("shape.kind=") + kind, "title=tab\tand \"quotes\" \\ here",
+    const Overrides changes{std::string("shape.kind=") + kind, "title=some \"quotes\" \\ here",
                             "shape.center=[0.1, 0.01, 1e-17]", "run.end_time=0.1234567890123456",
                             "grid.nodes=[64, 96, 72]",         "shape.rotation_angle=33.3"};
     const Scene scene = builtin_scene("fig3_oblate", changes);
