@@ -17,7 +17,8 @@ double* numbers(std::complex<double>* modes) { return reinterpret_cast<double*>(
 SemiImplicit::SemiImplicit(const Grid& grid, Fourier& fourier)
     : grid_(grid), fourier_(fourier), rate_(fourier.modes(), 0.0),
       spectral_increment_(fourier.modes(), 0.0), spectral_response_(fourier.modes(), 0.0),
-      increment_(grid.size(), 0.0), previous_(grid.size(), 0.0), response_(grid.size(), 0.0) {
+      increment_(grid.size(), 0.0), previous_(grid.size(), 0.0), response_(grid.size(), 0.0),
+      before_(grid.size(), 0.0) {
   auto symbol = [&](int axis, int m) {
     return std::max(least_spline_symbol, fourier.spline_symbol(axis, m));
   };
@@ -78,6 +79,7 @@ void SemiImplicit::apply(LevelSet& phi, double factor, double constant) {
   parallel_for(grid_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
       increment_[i] += factor * response_[i] + constant;
+      before_[i] = c[i];
       c[i] += increment_[i];
     }
   });

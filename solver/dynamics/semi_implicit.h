@@ -43,6 +43,8 @@ public:
   std::span<const double> response() const { return response_; }
   /// Of the step before.
   std::span<const double> previous_increment() const { return previous_; }
+  /// Coefficients before the last apply(): what to go back to when the step went wrong.
+  std::span<const double> before() const { return before_; }
   /// This step over the one before; 0 where there is no history.
   double step_ratio() const { return ratio_; }
 
@@ -57,7 +59,7 @@ private:
   std::vector<double> kx2_, inv_symbol_x_; // each number twice: real and imaginary part
   std::vector<double> k2_[2], symbol_[2];  // along y and z
   Array<std::complex<double>> rate_, spectral_increment_, spectral_response_;
-  Array<double> increment_, previous_, response_;
+  Array<double> increment_, previous_, response_, before_;
   ImplicitSymbol implicit_;
   double dt_ = 0, ratio_ = 0, response_factor_ = 0;
 };

@@ -59,9 +59,7 @@ Simulation::Simulation(const Scene& scene)
 
 Frame Simulation::frame() const {
   LevelSet phi = phi_;
-  if (broken_)
-    for (std::size_t i = 0; i < phi.coefficients().size(); i++)
-      phi.coefficients()[i] -= stepper_.increment()[i];
+  if (broken_) std::ranges::copy(stepper_.before(), phi.coefficients().begin());
   phi.update_nodal();
   return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}};
 }
@@ -71,21 +69,19 @@ Frame Simulation::frame() const {
 
 /// Brings the membrane onto its constraints and finds everything that is known of it. Second
 /// derivatives suffice to measure the drift of volume and area; what is recorded is measured after
-/// its correction.
-void Simulation::measure() {
+/// its correction. Returns the excess before it.
+Simulation::Excess Simulation::measure() {
   locate();
   surface_.curvatures(phi_, band_);
   integrals_ = integrate(surface_, bending_, {});
-  if (steps_ > 0) {
-    volume_excess_ = memory * volume_excess_ + integrals_.volume - volume_;
-    area_excess_ = memory * area_excess_ + integrals_.area() - area_;
-  }
+  const Excess excess{integrals_.volume - volume_, integrals_.area() - area_};
   project();
   measure_forces();
   for (int pass = 0; pass < most_projections && drift() > worst_drift; pass++) {
     project();
     measure_forces();
   }
+  return excess;
 }
 
 double Simulation::drift() const {
@@ -97,8 +93,8 @@ void Simulation::locate() {
   phi_.update_nodal();
   band_.update(phi_);
   surface_.sample(band_);
-  extension_.prepare(band_, surface_.sampled());
   if (surface_.size() == 0) throw RunError("the membrane has disappeared");
+  extension_.prepare(band_, surface_.sampled());
 }
 
 /// Displaces the membrane by a + b K_M so that volume and area are those of the scene.
@@ -230,8 +226,8 @@ void Simulation::apply_constrained() {
     });
   }
   Eigen::Matrix2d change = Eigen::Matrix2d::Zero(); // of volume and area, with factor and constant
-  Eigen::Vector2d wanted{volume_ - integrals_.volume - volume_excess_,
-                         area_ - integrals_.area() - area_excess_};
+  Eigen::Vector2d wanted{volume_ - integrals_.volume - excess_.volume,
+                         area_ - integrals_.area() - excess_.area};
   for (std::size_t i = 0; i < n; i++) {
     const double w = -surface_.weight()[i] / surface_.grad()[i], KM = surface_.KM()[i];
     const Eigen::Vector2d effect{w, -w * KM};
@@ -260,7 +256,8 @@ void Simulation::step(double latest) {
   error_ = step_error();
   steps_++;
   broken_ = true;
-  measure();
+  const Excess excess = measure();
+  excess_ = {memory * excess_.volume + excess.volume, memory * excess_.area + excess.area};
   Measures now = summarise(dt);
   if (now.time > latest * (1 - 1e-12)) now.time = latest; // rounding
   check(now);

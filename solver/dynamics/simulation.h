@@ -33,7 +33,11 @@ public:
   const Grid& grid() const { return phi_.grid(); }
 
 private:
-  void measure();
+  /// Volume and area beyond what they should be.
+  struct Excess {
+    double volume = 0, area = 0;
+  };
+  Excess measure();
   void locate();
   void project();
   void apply_constrained();
@@ -63,8 +67,7 @@ private:
   std::vector<double> grad_, work_; // a number a band entry
   bool broken_ = false;             // the last step failed: the state is the one before it
   double area_ = 0, volume_ = 0;    // of the scene's shape
-  double area_excess_ = 0,
-         volume_excess_ = 0; // change in a step beyond first order, as last seen
+  Excess excess_;                   // of a step beyond first order, as last seen
   double max_force_ = 0, max_speed_ = 0, error_ = 0;
   double response_dt_ = 0; // the step that the response of the tension was found for
   long steps_ = 0, renormalised_ = 0;

@@ -236,10 +236,12 @@ TEST(Simulation, IsTheSameForAnyNumberOfThreads) {
 void expect_stop(const Scene& scene, const char* words) {
   Simulation sim(scene);
   Measures last = sim.measures();
+  Frame good = sim.frame();
   try {
     while (sim.time() < scene.end_time) {
       sim.step(scene.end_time);
       last = sim.measures();
+      good = sim.frame();
     }
     ADD_FAILURE() << "ran to its end";
   } catch (const RunError& e) {
@@ -249,7 +251,10 @@ void expect_stop(const Scene& scene, const char* words) {
     const Frame frame = sim.frame();
     EXPECT_EQ(frame.time, last.time);
     EXPECT_GT(count_components(frame.grid, frame.phi), 0);
-    for (double v : frame.phi) ASSERT_TRUE(std::isfinite(v));
+    double worst = 0; // the gauge may have been filtered since: phi changes, its zero set does not
+    for (std::size_t i = 0; i < frame.phi.size(); i++)
+      worst = std::max(worst, std::abs(frame.phi[i] - good.phi[i]));
+    EXPECT_LT(worst, 0.1 * frame.grid.spacing); // measured 0.026
   }
 }
 
