@@ -5,12 +5,15 @@
 #include <cmath>
 #include <cstring>
 #include <fftw3.h>
+#include <mutex>
 #include <numbers>
 
 namespace lamella {
 
 namespace {
 fftw_complex* raw(std::complex<double>* p) { return reinterpret_cast<fftw_complex*>(p); }
+std::mutex planner; // FFTW plans in one thread at a time
+
 } // namespace
 
 /// Single-threaded plans, executed on many planes and column blocks at once: results do not depend
@@ -19,6 +22,7 @@ struct Fourier::Plans {
   fftw_plan plane_forward, plane_backward, columns_forward, columns_backward;
 
   explicit Plans(const Grid& grid) {
+    const std::lock_guard lock(planner);
     const int nx = grid.nx(), ny = grid.ny(), nz = grid.nz(), row = nx / 2 + 1;
     Array<double> plane(std::size_t(nx) * ny);
     Array<std::complex<double>> modes(std::size_t(row) * std::max(ny, nz));
@@ -32,6 +36,7 @@ struct Fourier::Plans {
     columns_backward = columns(FFTW_BACKWARD);
   }
   ~Plans() {
+    const std::lock_guard lock(planner);
     for (fftw_plan p : {plane_forward, plane_backward, columns_forward, columns_backward})
       fftw_destroy_plan(p);
   }
