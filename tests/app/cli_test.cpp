@@ -376,7 +376,7 @@ TEST_F(Cli, names_the_damaged_file_of_a_run) {
 /// The states of the terminal's line: what stands between carriage returns and newlines.
 std::vector<std::string> lines_on_terminal(unsigned short columns, const Setting& setting) {
   const std::string all = Program::on_terminal(
-      columns, slow("0.006", {"-o", fmt::format("run{}", columns), "--no-pictures"}), setting);
+      columns, slow("0.02", {"-o", fmt::format("run{}", columns), "--no-pictures"}), setting);
   std::vector<std::string> lines{""};
   for (const char c : all)
     if (c == '\r' || c == '\n')
@@ -390,20 +390,22 @@ std::vector<std::string> lines_on_terminal(unsigned short columns, const Setting
 }
 
 TEST_F(Cli, shows_its_progress_on_a_terminal) {
+  if (!Program::has_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
   const std::vector<std::string> lines = lines_on_terminal(100, setting_);
   ASSERT_GE(lines.size(), 2u);
   for (const std::string& line : lines)
-    EXPECT_THAT(line, MatchesRegex("t = [0-9.e+-]+ of 6.000e-03   [0-9a-z .]+ left   E = [0-9.]+   "
+    EXPECT_THAT(line, MatchesRegex("t = [0-9.e+-]+ of 2.000e-02   [0-9a-z .]+ left   E = [0-9.]+   "
                                    "dt = [0-9.e+-]+   step [0-9]+ *"));
   EXPECT_LT(std::stod(lines.front().substr(4)), std::stod(lines.back().substr(4)));
 }
 
 TEST_F(Cli, keeps_its_progress_within_a_narrow_terminal) {
+  if (!Program::has_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
   const std::vector<std::string> lines = lines_on_terminal(44, setting_);
   ASSERT_GE(lines.size(), 2u);
   for (const std::string& line : lines) {
     EXPECT_LE(line.size(), 43u);
-    EXPECT_THAT(line, MatchesRegex("t = [0-9.e+-]+ of 6.000e-03   [0-9a-z .]+ left *"));
+    EXPECT_THAT(line, MatchesRegex("t = [0-9.e+-]+ of 2.000e-02   [0-9a-z .]+ left *"));
   }
 }
 

@@ -61,6 +61,15 @@ public:
             out_ == "/dev/full" ? "" : text_of(out_), text_of(err_)};
   }
 
+  /// Containers may lack /dev/pts.
+  static bool has_terminals() {
+    int terminal = -1, other = -1;
+    if (openpty(&terminal, &other, nullptr, nullptr, nullptr) != 0) return false;
+    close(terminal);
+    close(other);
+    return true;
+  }
+
   /// Everything it writes to a terminal so many columns wide.
   static std::string on_terminal(unsigned short columns, const std::vector<std::string>& arguments,
                                  const Setting& setting) {
