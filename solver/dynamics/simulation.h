@@ -13,7 +13,7 @@ namespace lamella {
 /// A vesicle in time: the state of a scene, advanced step by step.
 ///
 /// After construction and after every step the state is on its constraints (volume and area of the
-/// start) and measured. The state depends on the scene alone, to the last bit whatever the number
+/// scene's shape) and measured. The state depends on the scene alone, to the last bit whatever the number
 /// of threads.
 class Simulation {
 public:

@@ -22,13 +22,11 @@ public:
 
   const Grid& grid() const { return grid_; }
   std::size_t size() const { return node_.size(); }
-  double half_width() const { return half_width_; }
   std::span<const int> node() const { return node_; }
   /// First band index of plane k; plane_begin(nz) is size().
   int plane_begin(int k) const { return plane_begin_[k]; }
   /// Band index of a grid node, -1 outside the band.
   int slot(std::size_t node) const { return slot_[node]; }
-  std::span<const int> slots() const { return slot_; }
 
   /// The nodes' own positions, by coordinate.
   ConstPoints positions() const { return {x_.data(), y_.data(), z_.data()}; }
