@@ -61,7 +61,7 @@ Frame Simulation::frame() const {
   LevelSet phi = phi_;
   if (broken_) std::ranges::copy(stepper_.before(), phi.coefficients().begin());
   phi.update_nodal();
-  return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}};
+  return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}, {}};
 }
 
 // ------------------------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
 #pragma once
+#include "dynamics/event.h"
 #include "dynamics/measures.h"
 #include "dynamics/multipliers.h"
 #include "dynamics/semi_implicit.h"
@@ -28,6 +29,8 @@ public:
   /// The step that the error control would take next.
   double next_dt() const;
   const Measures& measures() const { return measures_; }
+  /// What happened so far, in the order of time.
+  std::span<const Event> events() const { return events_; }
   /// Nodal values of the level set.
   Frame frame() const;
   const Grid& grid() const { return phi_.grid(); }
@@ -72,6 +75,7 @@ private:
   double response_dt_ = 0; // the step that the response of the tension was found for
   long steps_ = 0, renormalised_ = 0;
   Measures measures_;
+  std::vector<Event> events_;
 };
 
 } // namespace lamella

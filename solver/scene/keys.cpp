@@ -47,7 +47,7 @@ std::vector<Key> make_keys() {
        "half the width, along its shortest axis, of the periodic box around the origin"},
 
       {"shape", "kind", choice<&Scene::shape, &Shape::kind>(
-           {"sphere", "oblate", "prolate", "ellipsoid", "torus"}), "", any, {},
+           {"sphere", "oblate", "prolate", "ellipsoid", "torus", "frame"}), "", any, {},
        "start shape; before rotation its axis of symmetry is z"},
       {"shape", "radius", member<&Scene::shape, &Shape::radius>(), "length", length, {sphere},
        "radius"},
@@ -75,10 +75,19 @@ std::vector<Key> make_keys() {
        member<&Scene::membrane, &Membrane::spontaneous_curvature>(), "1/length", any, {},
        "preferred sum of the principal curvatures, which is -2 on the unit sphere"},
 
-      {"constraints", "volume", choice<&Scene::constraints, &Constraints::volume>({"fixed"}), "",
-       any, {}, "fixed: as it is at the start; other treatments are yet to come"},
-      {"constraints", "area", choice<&Scene::constraints, &Constraints::area>({"fixed"}), "",
-       any, {}, "fixed: as it is at the start; other treatments are yet to come"},
+      {"volume", "constraint", choice<&Scene::volume, &VolumeConstraint::constraint>(
+           {"fixed", "ramped", "free"}), "", any, {},
+       "fixed: as at the start; ramped: led to `targets`; free: under `pressure`"},
+      {"volume", "pressure", member<&Scene::volume, &VolumeConstraint::pressure>(),
+       "energy/length^3", any, {}, "pressure inside less that outside, where the volume is free"},
+
+      {"area_difference", "constraint",
+       choice<&Scene::area_difference, &AreaDifferenceConstraint::constraint>(
+           {"fixed", "ramped", "free"}), "", any, {},
+       "fixed: as at the start; ramped: led to `targets`; free: under `multiplier`"},
+      {"area_difference", "multiplier",
+       member<&Scene::area_difference, &AreaDifferenceConstraint::multiplier>(), "energy/length",
+       any, {}, "coefficient of K in the normal velocity, where the area difference is free"},
 
       {"run", "end_time", member<&Scene::end_time>(), "time",
        {.low = 0, .high = 1e30, .above_low = true}, {}, "when the run ends; it starts at 0"},

@@ -6,10 +6,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lamella {
 
-enum class ShapeKind { sphere, oblate, prolate, ellipsoid, torus };
+enum class ShapeKind { sphere, oblate, prolate, ellipsoid, torus, frame };
 
 /// The start shape. Which members count depends on the kind. Before rotation the symmetry axis is
 /// z.
@@ -23,6 +24,7 @@ struct Shape {
   Vec3 center{0, 0, 0};
   Vec3 rotation_axis{0, 0, 1}; ///< any length but zero
   double rotation_angle = 0;   ///< degrees, right-handed about rotation_axis
+  std::string file;            ///< frame: a stored state, as it is
 
   bool operator==(const Shape&) const = default;
 };
@@ -36,14 +38,69 @@ struct Membrane {
   bool operator==(const Membrane&) const = default;
 };
 
-/// What is held during a run. This release knows one way for each.
-enum class Constraint { fixed };
+/// A smooth displacement of the start shape that breaks its symmetry: the same for the same seed,
+/// on any grid. Area and volume stay those of the shape.
+struct Perturbation {
+  double amplitude = 0; ///< length, of the largest displacement; 0: none
+  double wavelength =
+      0; ///< length, the shortest there is; 0: a third of the shape's largest extent
+  int seed = 1;
+  int fold = 0; ///< rotational symmetry about the shape's axis; 0: none, random in all directions
 
-struct Constraints {
-  Constraint volume = Constraint::fixed;
-  Constraint area = Constraint::fixed;
+  bool operator==(const Perturbation&) const = default;
+};
 
-  bool operator==(const Constraints&) const = default;
+/// fixed: as it is at the start. ramped: led to given values. free: under a given multiplier.
+enum class Constraint { fixed, ramped, free };
+
+/// Values that a constraint is led to, one after the other, at a limited rate.
+struct Ramp {
+  std::vector<double> targets;     ///< in the unit of the constrained quantity
+  std::vector<double> start_times; ///< when to set out for each; as many, ascending
+  double rate = 1;                 ///< largest change per unit of time
+
+  bool operator==(const Ramp&) const = default;
+};
+
+/// The volume; targets are reduced volumes, V / (4/3 pi (A / 4 pi)^(3/2)).
+struct VolumeConstraint {
+  Constraint constraint = Constraint::fixed;
+  Ramp ramp;
+  double pressure = 0; ///< P, when free
+
+  bool operator==(const VolumeConstraint&) const = default;
+};
+
+/// The area difference; targets are reduced, -int K_M dA / (8 pi Rs), 1 for a sphere.
+struct AreaDifferenceConstraint {
+  Constraint constraint = Constraint::free;
+  Ramp ramp;
+  double multiplier =
+      0; ///< coefficient of K in the normal velocity, 2 h sigma_DA of Eq. 80, when
+         ///< free; acts as a spontaneous curvature of -multiplier / (2 bending_modulus)
+
+  bool operator==(const AreaDifferenceConstraint&) const = default;
+};
+
+/// What happens where the membrane meets itself.
+struct Contact {
+  bool topology_changes = true;   ///< false: the run stops where one is about to happen
+  double disjoining_pressure = 0; ///< at zero thickness, of films of fluid inside; 0: none
+  double disjoining_range = 0.02; ///< length over which it falls by a factor e
+  double rupture_thickness =
+      0; ///< length; they rupture when as thin as this; 0: as the grid can resolve
+
+  bool operator==(const Contact&) const = default;
+};
+
+/// When a run ends before its end time; 0 switches a rule off.
+struct Stop {
+  double energy_rate = 0;    ///< |dE/dt| / E below this, and
+  double residual_force = 0; ///< largest normal velocity below this: at rest
+  int topology_changes = 0;  ///< so many have happened
+  double wall_time = 0;      ///< seconds
+
+  bool operator==(const Stop&) const = default;
 };
 
 struct Numerics {
@@ -70,8 +127,12 @@ struct Scene {
   double half_width = 1; ///< of the box along its shortest axis
   Shape shape;
   Membrane membrane;
-  Constraints constraints;
+  Perturbation perturbation;
+  VolumeConstraint volume; ///< the area is always fixed
+  AreaDifferenceConstraint area_difference;
+  Contact contact;
   double end_time = 1.6e-3;
+  Stop stop;
   Numerics numerics;
   Output output;
 

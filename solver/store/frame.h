@@ -1,6 +1,7 @@
 #pragma once
 #include "grid/grid.h"
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace lamella {
 struct Frame {
   Grid grid;
   double time = 0;
-  std::vector<double> phi; ///< grid.size() values, x fastest
+  std::vector<double> phi;    ///< grid.size() values, x fastest
+  std::array<int, 3> cells{}; ///< the box has moved by so many spacings to follow the vesicle
 };
 
 /// Write a frame as VTKHDF ImageData (opens in ParaView >= 5.11). The file appears whole or not at

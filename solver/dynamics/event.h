@@ -1,0 +1,42 @@
+#pragma once
+#include "grid/grid.h"
+
+#include <array>
+#include <string>
+
+namespace lamella {
+
+/// Something that happened to a membrane and that its numbers alone do not tell.
+struct Event {
+  enum class Kind {
+    fission,     ///< a neck was cut, or closed by itself
+    rupture,     ///< a film of inner fluid broke: a hole through the vesicle
+    fusion,      ///< two places of the membrane met and became one
+    vanished,    ///< a part too small for the grid was removed
+    recentred,   ///< the box followed the vesicle
+    sharp,       ///< a radius of curvature is below what the grid resolves
+    thin_inside, ///< the membrane is nearer to itself, through the inside, than the grid resolves
+    thin_outside ///< the same through the outside
+  };
+  Kind kind = Kind::fission;
+  double time = 0;
+  Vec3 place{};
+  double size =
+      0; ///< length: neck radius, half the thickness of a film or gap, radius of curvature
+  int components_before = 0, components_after = 0;
+  int genus_before = 0, genus_after = 0;
+  double area_before = 0, area_cut = 0;       ///< as the change of topology left it; then put back
+  double energy_before = 0, energy_after = 0; ///< after: on the constraints again
+  std::array<int, 3> cells{};                 ///< recentred: the box moved by so many
+
+  bool changes_topology() const { return kind <= Kind::vanished; }
+  bool operator==(const Event&) const = default;
+};
+
+/// "fission", "thin_inside"
+const char* to_string(Event::Kind kind);
+
+/// One line for a person: "t = 2.51e-4: neck cut at (0.1, 0.2, 0): 1 -> 2 components ..."
+std::string to_text(const Event& event);
+
+} // namespace lamella
