@@ -8,8 +8,6 @@
 namespace lamella {
 namespace {
 
-using enum ShapeKind;
-
 /// The member that a path of pointers to members leads to.
 template <auto... path>
 auto& at(Scene& scene) {
@@ -29,12 +27,15 @@ Choice choice(std::vector<std::string_view> names) {
 }
 
 const Range any{};
-const Range length{.low = 0, .above_low = true};
+const Range positive{.low = 0, .above_low = true};
+const Range not_negative{.low = 0};
+const Range any_time{.low = 0, .high = 1e30};
 
 // The one description of the scene format. A new parameter is a member of Scene and an entry here:
-// section, name, access, unit, range, shape kinds, help, default in words.
+// section, name, access, unit, range, cases, help, default in words.
 // clang-format off
 std::vector<Key> make_keys() {
+  const std::vector<std::string_view> analytic{"sphere", "oblate", "prolate", "ellipsoid", "torus"};
   return {
       {"", "name", member<&Scene::name>(), "", any, {},
        "what the run is called", "the file's name without `.toml`"},
@@ -49,25 +50,39 @@ std::vector<Key> make_keys() {
       {"shape", "kind", choice<&Scene::shape, &Shape::kind>(
            {"sphere", "oblate", "prolate", "ellipsoid", "torus", "frame"}), "", any, {},
        "start shape; before rotation its axis of symmetry is z"},
-      {"shape", "radius", member<&Scene::shape, &Shape::radius>(), "length", length, {sphere},
+      {"shape", "radius", member<&Scene::shape, &Shape::radius>(), "length", positive, {"sphere"},
        "radius"},
-      {"shape", "semi_axis", member<&Scene::shape, &Shape::semi_axis>(), "length", length,
-       {oblate, prolate}, "largest semi-axis"},
+      {"shape", "semi_axis", member<&Scene::shape, &Shape::semi_axis>(), "length", positive,
+       {"oblate", "prolate"}, "largest semi-axis"},
       {"shape", "reduced_volume", member<&Scene::shape, &Shape::reduced_volume>(), "",
-       {.low = 0.01, .high = 1, .below_high = true}, {oblate, prolate},
+       {.low = 0.01, .high = 1, .below_high = true}, {"oblate", "prolate"},
        "volume over that of the sphere with the same area; sets the other semi-axis"},
-      {"shape", "semi_axes", member<&Scene::shape, &Shape::semi_axes>(), "length", length,
-       {ellipsoid}, "semi-axes along x, y, z"},
-      {"shape", "ring_radius", member<&Scene::shape, &Shape::ring_radius>(), "length", length,
-       {torus}, "from the centre of the torus to the centre of its tube"},
-      {"shape", "tube_radius", member<&Scene::shape, &Shape::tube_radius>(), "length", length,
-       {torus}, "radius of the tube"},
-      {"shape", "center", member<&Scene::shape, &Shape::center>(), "length", any, {},
+      {"shape", "semi_axes", member<&Scene::shape, &Shape::semi_axes>(), "length", positive,
+       {"ellipsoid"}, "semi-axes along x, y, z"},
+      {"shape", "ring_radius", member<&Scene::shape, &Shape::ring_radius>(), "length", positive,
+       {"torus"}, "from the centre of the torus to the centre of its tube"},
+      {"shape", "tube_radius", member<&Scene::shape, &Shape::tube_radius>(), "length", positive,
+       {"torus"}, "radius of the tube"},
+      {"shape", "file", member<&Scene::shape, &Shape::file>(), "", any, {"frame"},
+       "a stored frame, or the folder of a run for its last one", "none"},
+      {"shape", "center", member<&Scene::shape, &Shape::center>(), "length", any, analytic,
        "centre of the shape"},
-      {"shape", "rotation_axis", member<&Scene::shape, &Shape::rotation_axis>(), "", any, {},
+      {"shape", "rotation_axis", member<&Scene::shape, &Shape::rotation_axis>(), "", any, analytic,
        "axis through the centre about which the shape is turned; any length but zero"},
       {"shape", "rotation_angle", member<&Scene::shape, &Shape::rotation_angle>(), "degrees",
-       {.low = -360, .high = 360}, {}, "right-handed about rotation_axis"},
+       {.low = -360, .high = 360}, analytic, "right-handed about rotation_axis"},
+
+      {"perturbation", "amplitude", member<&Scene::perturbation, &Perturbation::amplitude>(),
+       "length", not_negative, {},
+       "bound of a smooth displacement of the start shape; 0: none"},
+      {"perturbation", "wavelength", member<&Scene::perturbation, &Perturbation::wavelength>(),
+       "length", not_negative, {},
+       "shortest of its waves, the longest is three times it; 0 stands for a third of the shape's largest extent"},
+      {"perturbation", "seed", member<&Scene::perturbation, &Perturbation::seed>(), "",
+       {.low = 0, .high = 1e9}, {}, "each number gives a displacement of its own, always the same"},
+      {"perturbation", "fold", member<&Scene::perturbation, &Perturbation::fold>(), "",
+       {.low = 0, .high = 12}, {},
+       "number of arms about the shape's axis that it seeds; 0: none, random in all directions"},
 
       {"membrane", "bending_modulus", member<&Scene::membrane, &Membrane::bending_modulus>(),
        "energy", {.low = 1e-6}, {}, "bending modulus of the Helfrich energy"},
@@ -77,26 +92,64 @@ std::vector<Key> make_keys() {
 
       {"volume", "constraint", choice<&Scene::volume, &VolumeConstraint::constraint>(
            {"fixed", "ramped", "free"}), "", any, {},
-       "fixed: as at the start; ramped: led to `targets`; free: under `pressure`"},
+       "fixed: as it is at the start; ramped: led to targets; free: under a pressure"},
+      {"volume", "targets", member<&Scene::volume, &VolumeConstraint::ramp, &Ramp::targets>(), "",
+       {.low = 0, .high = 1, .above_low = true}, {"ramped"},
+       "reduced volumes to reach, one after the other", "none"},
+      {"volume", "start_times",
+       member<&Scene::volume, &VolumeConstraint::ramp, &Ramp::start_times>(), "time", any_time,
+       {"ramped"}, "when to set out for each target"},
+      {"volume", "rate", member<&Scene::volume, &VolumeConstraint::ramp, &Ramp::rate>(), "1/time",
+       positive, {"ramped"}, "change of the reduced volume per unit of time"},
       {"volume", "pressure", member<&Scene::volume, &VolumeConstraint::pressure>(),
-       "energy/length^3", any, {}, "pressure inside less that outside, where the volume is free"},
+       "energy/length³", any, {"free"}, "pressure inside less that outside"},
 
       {"area_difference", "constraint",
        choice<&Scene::area_difference, &AreaDifferenceConstraint::constraint>(
            {"fixed", "ramped", "free"}), "", any, {},
-       "fixed: as at the start; ramped: led to `targets`; free: under `multiplier`"},
+       "fixed: as it is at the start; ramped: led to targets; free: under a multiplier"},
+      {"area_difference", "targets",
+       member<&Scene::area_difference, &AreaDifferenceConstraint::ramp, &Ramp::targets>(), "",
+       {.low = 0, .high = 100, .above_low = true}, {"ramped"},
+       "reduced area differences to reach, one after the other; 1 for a sphere", "none"},
+      {"area_difference", "start_times",
+       member<&Scene::area_difference, &AreaDifferenceConstraint::ramp, &Ramp::start_times>(),
+       "time", any_time, {"ramped"}, "when to set out for each target"},
+      {"area_difference", "rate",
+       member<&Scene::area_difference, &AreaDifferenceConstraint::ramp, &Ramp::rate>(), "1/time",
+       positive, {"ramped"}, "change of the reduced area difference per unit of time"},
       {"area_difference", "multiplier",
        member<&Scene::area_difference, &AreaDifferenceConstraint::multiplier>(), "energy/length",
-       any, {}, "coefficient of K in the normal velocity, where the area difference is free"},
+       any, {"free"}, "coefficient of the Gaussian curvature in the outward normal velocity"},
+
+      {"contact", "topology_changes", member<&Scene::contact, &Contact::topology_changes>(), "",
+       any, {}, "whether necks pinch and films rupture; if not, the run stops where one is about to"},
+      {"contact", "disjoining_pressure",
+       member<&Scene::contact, &Contact::disjoining_pressure>(), "energy/length³", not_negative, {},
+       "pressure that holds films of inner fluid open, at zero thickness; 0: none"},
+      {"contact", "disjoining_range", member<&Scene::contact, &Contact::disjoining_range>(),
+       "length", positive, {}, "thickness over which it falls by a factor e"},
+      {"contact", "rupture_thickness", member<&Scene::contact, &Contact::rupture_thickness>(),
+       "length", not_negative, {},
+       "films as thin as this rupture; 0: as thin as the grid can resolve"},
 
       {"run", "end_time", member<&Scene::end_time>(), "time",
        {.low = 0, .high = 1e30, .above_low = true}, {}, "when the run ends; it starts at 0"},
+
+      {"stop", "energy_rate", member<&Scene::stop, &Stop::energy_rate>(), "1/time", any_time, {},
+       "the run ends earlier, at rest, where the relative rate of the energy falls below this; 0: never"},
+      {"stop", "residual_force", member<&Scene::stop, &Stop::residual_force>(), "length/time",
+       any_time, {}, "the same for the largest normal velocity; given both, both must hold; 0: never"},
+      {"stop", "topology_changes", member<&Scene::stop, &Stop::topology_changes>(), "",
+       {.low = 0}, {}, "the run ends after so many pinches and ruptures; 0: never"},
+      {"stop", "wall_time", member<&Scene::stop, &Stop::wall_time>(), "seconds", any_time, {},
+       "the run ends after so long by the clock; 0: never"},
 
       {"numerics", "tolerance", member<&Scene::numerics, &Numerics::tolerance>(), "grid spacings",
        {.low = 0, .high = 0.1, .above_low = true}, {},
        "time error allowed per step, rms over the membrane"},
       {"numerics", "max_time_step", member<&Scene::numerics, &Numerics::max_time_step>(), "time",
-       {.low = 0, .high = 1e30}, {}, "longest step; 0 stands for end_time / 16"},
+       any_time, {}, "longest step; 0 stands for end_time / 16"},
 
       {"output", "frames", member<&Scene::output, &Output::frames>(), "",
        {.low = 2, .high = 100000}, {},
@@ -137,8 +190,10 @@ std::string Key::label() const {
   return section.empty() ? std::string(name) : fmt::format("[{}] {}", section, name);
 }
 
-bool Key::belongs_to(ShapeKind kind) const {
-  return kinds.empty() || std::ranges::find(kinds, kind) != kinds.end();
+bool Key::counts_in(Scene scene) const {
+  if (cases.empty()) return true;
+  const Choice& choice = std::get<Choice>(choice_key(section)->access);
+  return std::ranges::find(cases, choice.names.at(choice.get(scene))) != cases.end();
 }
 
 std::span<const Key> scene_keys() {
@@ -166,8 +221,11 @@ const Key* find_key(std::string_view section, std::string_view name) {
   return key == scene_keys().end() ? nullptr : &*key;
 }
 
-std::string_view to_string(ShapeKind kind) {
-  return std::get<Choice>(find_key("shape", "kind")->access).names.at(static_cast<int>(kind));
+const Key* choice_key(std::string_view section) {
+  const auto key = std::ranges::find_if(scene_keys(), [&](const Key& k) {
+    return k.section == section && std::holds_alternative<Choice>(k.access);
+  });
+  return key == scene_keys().end() ? nullptr : &*key;
 }
 
 std::string quoted(std::string_view text) {
@@ -192,8 +250,11 @@ std::string value_text(const Key& key, Scene scene) {
             return x == y && y == z ? fmt::to_string(x) : fmt::format("[{}, {}, {}]", x, y, z);
           },
           [&](Member<Vec3> vector) { return fmt::format("[{}]", fmt::join(vector(scene), ", ")); },
+          [&](Member<std::vector<double>> list) {
+            return fmt::format("[{}]", fmt::join(list(scene), ", "));
+          },
           [&](const Choice& choice) { return quoted(choice.names.at(choice.get(scene))); },
-          [&](auto number) { return fmt::to_string(number(scene)); },
+          [&](auto scalar) { return fmt::to_string(scalar(scene)); },
       },
       key.access);
 }
@@ -203,10 +264,14 @@ std::string allowed_text(const Key& key) {
       Overloaded{
           [&](Member<double>) { return "a number " + range_text(key.range); },
           [&](Member<int>) { return integer_text(key.range); },
+          [&](Member<bool>) { return std::string("true or false"); },
           [&](Member<std::string>) { return std::string("a text in quotes"); },
           [&](Member<Vec3>) { return "three numbers [x, y, z] " + range_text(key.range); },
           [&](Member<std::array<int, 3>>) {
             return integer_text(key.range) + ", or three of them [nx, ny, nz]";
+          },
+          [&](Member<std::vector<double>>) {
+            return fmt::format("a number {}, or a list of them", range_text(key.range));
           },
           [&](const Choice& choice) {
             return fmt::format("\"{}\"", fmt::join(choice.names, "\", \""));

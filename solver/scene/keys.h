@@ -21,10 +21,11 @@ struct Choice {
   void (*set)(Scene&, int);
 };
 
-using Access = std::variant<Member<double>, Member<int>, Member<std::string>, Member<Vec3>,
-                            Member<std::array<int, 3>>, Choice>;
+using Access =
+    std::variant<Member<double>, Member<int>, Member<bool>, Member<std::string>, Member<Vec3>,
+                 Member<std::array<int, 3>>, Member<std::vector<double>>, Choice>;
 
-/// Allowed numbers, for a vector each component. What is not finite is never allowed.
+/// Allowed numbers, for vectors and lists each of them. What is not finite is never allowed.
 struct Range {
   double low = -1e6, high = 1e6;
   bool above_low = false;  ///< low itself is not allowed
@@ -41,13 +42,14 @@ struct Key {
   Access access;
   std::string_view unit;
   Range range;
-  std::vector<ShapeKind> kinds; ///< the shape kinds it belongs to; empty: not bound to one
+  /// The values of its section's choice for which it counts; empty: it always does.
+  std::vector<std::string_view> cases;
   std::string_view help;
   std::string_view fallback = {}; ///< the default in words, where the plain value says too little
 
   std::string path() const;  ///< shape.semi_axis, as in --set
   std::string label() const; ///< [shape] semi_axis, as in messages
-  bool belongs_to(ShapeKind kind) const;
+  bool counts_in(Scene scene) const;
 };
 
 /// Every key of the scene format, in the order in which scenes are written.
@@ -60,7 +62,9 @@ std::vector<std::string_view> keys_of_section(std::string_view section);
 /// Null for an unknown key.
 const Key* find_key(std::string_view section, std::string_view name);
 
-std::string_view to_string(ShapeKind kind);
+/// The key, such as kind in [shape], whose value decides which others of its section count; null
+/// where all do.
+const Key* choice_key(std::string_view section);
 
 /// A value of a scene in TOML.
 std::string value_text(const Key& key, Scene scene);

@@ -24,9 +24,20 @@ struct Shape {
   Vec3 center{0, 0, 0};
   Vec3 rotation_axis{0, 0, 1}; ///< any length but zero
   double rotation_angle = 0;   ///< degrees, right-handed about rotation_axis
-  std::string file;            ///< frame: a stored state, as it is
+  std::string file{};          ///< frame: a stored state, or a run's folder for its last one
 
   bool operator==(const Shape&) const = default;
+};
+
+/// A smooth displacement of the start shape that breaks its symmetry: the same for the same seed,
+/// on any grid. Area and volume stay those of the shape.
+struct Perturbation {
+  double amplitude = 0;  ///< length; no point moves further; 0: none
+  double wavelength = 0; ///< length, the shortest; 0: a third of the shape's largest extent
+  int seed = 1;
+  int fold = 0; ///< rotational symmetry about the shape's axis; 0: none, random in all directions
+
+  bool operator==(const Perturbation&) const = default;
 };
 
 /// Helfrich energy: bending_modulus / 2 int (K_M - spontaneous_curvature)^2 dA; K_M = -2 on the
@@ -38,26 +49,15 @@ struct Membrane {
   bool operator==(const Membrane&) const = default;
 };
 
-/// A smooth displacement of the start shape that breaks its symmetry: the same for the same seed,
-/// on any grid. Area and volume stay those of the shape.
-struct Perturbation {
-  double amplitude = 0; ///< length, of the largest displacement; 0: none
-  double wavelength =
-      0; ///< length, the shortest there is; 0: a third of the shape's largest extent
-  int seed = 1;
-  int fold = 0; ///< rotational symmetry about the shape's axis; 0: none, random in all directions
-
-  bool operator==(const Perturbation&) const = default;
-};
-
 /// fixed: as it is at the start. ramped: led to given values. free: under a given multiplier.
 enum class Constraint { fixed, ramped, free };
 
-/// Values that a constraint is led to, one after the other, at a limited rate.
+/// Values that a constraint is led to, one after the other, at a limited rate. Before the first
+/// start time it stays as it is at the start.
 struct Ramp {
-  std::vector<double> targets;     ///< in the unit of the constrained quantity
-  std::vector<double> start_times; ///< when to set out for each; as many, ascending
-  double rate = 1;                 ///< largest change per unit of time
+  std::vector<double> targets;        ///< in the unit of the constrained quantity
+  std::vector<double> start_times{0}; ///< when to set out for each; as many, ascending
+  double rate = 5;                    ///< change per unit of time
 
   bool operator==(const Ramp&) const = default;
 };
@@ -75,9 +75,9 @@ struct VolumeConstraint {
 struct AreaDifferenceConstraint {
   Constraint constraint = Constraint::free;
   Ramp ramp;
-  double multiplier =
-      0; ///< coefficient of K in the normal velocity, 2 h sigma_DA of Eq. 80, when
-         ///< free; acts as a spontaneous curvature of -multiplier / (2 bending_modulus)
+  /// When free: coefficient of K in the normal velocity, 2 h sigma_DA of Eq. 80. Acts as a
+  /// spontaneous curvature of -multiplier / (2 bending_modulus).
+  double multiplier = 0;
 
   bool operator==(const AreaDifferenceConstraint&) const = default;
 };
@@ -87,8 +87,7 @@ struct Contact {
   bool topology_changes = true;   ///< false: the run stops where one is about to happen
   double disjoining_pressure = 0; ///< at zero thickness, of films of fluid inside; 0: none
   double disjoining_range = 0.02; ///< length over which it falls by a factor e
-  double rupture_thickness =
-      0; ///< length; they rupture when as thin as this; 0: as the grid can resolve
+  double rupture_thickness = 0;   ///< length; 0: as thin as the grid can resolve
 
   bool operator==(const Contact&) const = default;
 };
@@ -126,8 +125,8 @@ struct Scene {
   std::array<int, 3> nodes{64, 64, 64};
   double half_width = 1; ///< of the box along its shortest axis
   Shape shape;
-  Membrane membrane;
   Perturbation perturbation;
+  Membrane membrane;
   VolumeConstraint volume; ///< the area is always fixed
   AreaDifferenceConstraint area_difference;
   Contact contact;

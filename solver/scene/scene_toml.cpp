@@ -38,6 +38,12 @@ bool assign(int& member, const toml::node& value) {
   return true;
 }
 
+bool assign(bool& member, const toml::node& value) {
+  if (!value.is_boolean()) return false;
+  member = value.as_boolean()->get();
+  return true;
+}
+
 bool assign(std::string& member, const toml::node& value) {
   if (!value.is_string()) return false;
   member = value.as_string()->get();
@@ -49,6 +55,15 @@ bool assign(std::array<T, 3>& member, const toml::node& value) {
   const toml::array* list = value.as_array();
   if (!list || list->size() != 3) return false;
   for (std::size_t i = 0; i < 3; ++i)
+    if (!assign(member[i], *list->get(i))) return false;
+  return true;
+}
+
+bool assign(std::vector<double>& member, const toml::node& value) {
+  const toml::array* list = value.as_array();
+  member.resize(list ? list->size() : 1);
+  if (!list) return assign(member.front(), value);
+  for (std::size_t i = 0; i < member.size(); ++i)
     if (!assign(member[i], *list->get(i))) return false;
   return true;
 }
@@ -95,34 +110,36 @@ private:
   const Given& given_;
 };
 
-void refuse_keys_of_other_kinds(const std::vector<Given>& given, ShapeKind kind) {
+/// What is chosen where there is a choice, such as the kind of shape; all else is at its default.
+Scene choices(const std::vector<Given>& given) {
+  Scene scene;
+  for (const Given& g : given)
+    if (g.key == choice_key(g.key->section)) Assignment(scene, g);
+  return scene;
+}
+
+void refuse_keys_that_do_not_count(const std::vector<Given>& given) {
+  const Scene scene = choices(given);
   for (const Given& g : given) {
-    if (g.key->belongs_to(kind)) continue;
-    std::vector<std::string_view> own;
+    if (g.key->counts_in(scene)) continue;
+    const Key& choice = *choice_key(g.key->section);
+    std::vector<std::string_view> allowed;
     for (const Key& key : scene_keys())
-      if (!key.kinds.empty() && key.belongs_to(kind)) own.push_back(key.name);
-    std::vector<std::string_view> homes;
-    for (const ShapeKind k : g.key->kinds) homes.push_back(to_string(k));
-    refuse_scene(fmt::format("{}{}: belongs to kind = \"{}\", not \"{}\"; allowed: {}", g.place,
-                             g.key->label(), fmt::join(homes, "\" or \""), to_string(kind),
-                             fmt::join(own, ", ")));
+      if (key.section == g.key->section && key.counts_in(scene)) allowed.push_back(key.name);
+    refuse_scene(fmt::format("{}{}: belongs to {} = \"{}\", not {}; allowed: {}", g.place,
+                             g.key->label(), choice.name, fmt::join(g.key->cases, "\" or \""),
+                             value_text(choice, scene), fmt::join(allowed, ", ")));
   }
 }
 
-/// The file's keys followed by the overrides; where these change the kind of shape, without the
-/// keys that only the file's kind has.
+/// The file's keys followed by the overrides; where these choose otherwise than the file, without
+/// the keys that no longer count.
 std::vector<Given> merged(std::vector<Given> given, std::span<const std::string> overrides) {
-  const auto kind_of = [](const std::vector<Given>& all) {
-    Scene scene;
-    for (const Given& g : all)
-      if (g.key->path() == "shape.kind") Assignment(scene, g);
-    return scene.shape.kind;
-  };
-  refuse_keys_of_other_kinds(given, kind_of(given));
+  refuse_keys_that_do_not_count(given);
   for (const std::string& argument : overrides) given.push_back(parse_override(argument));
-  const ShapeKind kind = kind_of(given);
-  std::erase_if(given, [&](const Given& g) { return !g.is_override && !g.key->belongs_to(kind); });
-  refuse_keys_of_other_kinds(given, kind);
+  const Scene scene = choices(given);
+  std::erase_if(given, [&](const Given& g) { return !g.is_override && !g.key->counts_in(scene); });
+  refuse_keys_that_do_not_count(given);
   return given;
 }
 
@@ -161,7 +178,7 @@ std::string to_toml(const Scene& scene) {
   std::string text;
   std::string_view section;
   for (const Key& key : scene_keys()) {
-    if (!key.belongs_to(scene.shape.kind)) continue;
+    if (!key.counts_in(scene)) continue;
     if (key.section != section) text += fmt::format("\n[{}]\n", section = key.section);
     const std::string setting = fmt::format("{} = {}", key.name, value_text(key, scene));
     text += fmt::format("{:<36} # {}{}\n", setting, key.help, unit_note(key));
@@ -177,14 +194,13 @@ std::string describe_keys() {
     text += "| key | allowed | unit | default | meaning |\n|---|---|---|---|---|\n";
     for (const Key& key : scene_keys()) {
       if (key.section != section) continue;
-      std::vector<std::string_view> kinds;
-      for (const ShapeKind kind : key.kinds) kinds.push_back(to_string(kind));
-      const std::string of_kind = kinds.empty() ? "" : fmt::format("{}: ", fmt::join(kinds, ", "));
+      const std::string of_case =
+          key.cases.empty() ? "" : fmt::format("{}: ", fmt::join(key.cases, ", "));
       const std::string fallback = key.fallback.empty()
                                        ? fmt::format("`{}`", value_text(key, Scene{}))
                                        : std::string(key.fallback);
       text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, allowed_text(key), key.unit,
-                          fallback, of_kind, key.help);
+                          fallback, of_case, key.help);
     }
   }
   return text;

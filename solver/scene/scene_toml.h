@@ -13,8 +13,8 @@ namespace lamella {
 //   file:line: [section] key: what is wrong; allowed: ...; did you mean "..."?
 
 /// Read and validate a scene file. `overrides` are "section.key=value" with a TOML value or a bare
-/// word; they replace what the file says, the last one wins. One of shape.kind drops the keys of
-/// the file's kind.
+/// word; they replace what the file says, the last one wins. One of a kind or constraint drops the
+/// keys of the file's.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 /// The same for a text; `source_name` stands for the file in messages, its stem is the default

@@ -1,8 +1,12 @@
 #include "scene/shapes.h"
 
+#include "parallel.h"
+#include "scene/perturbation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace lamella {
 namespace {
@@ -134,7 +138,8 @@ double quartic(double ring, double tube, const Vec3& x) {
 /// once.
 class LevelSet {
 public:
-  explicit LevelSet(const Shape& shape) : shape_(shape), rotation_(rotation(shape)) {
+  LevelSet(const Shape& shape, const Perturbation& perturbation)
+      : shape_(shape), rotation_(rotation(shape)), displacement_(perturbation, shape) {
     if (shape.kind == ShapeKind::torus) {
       scale_ = 1 / (8 * shape.ring_radius * shape.ring_radius * shape.tube_radius);
     } else {
@@ -146,7 +151,9 @@ public:
 
   /// d: from the shape's centre.
   double operator()(const Vec3& d) const {
-    const Vec3 x = to_body(rotation_, d);
+    Vec3 x = to_body(rotation_, d);
+    const Vec3 w = displacement_(x);
+    for (int i = 0; i < 3; ++i) x[i] -= w[i];
     if (shape_.kind == ShapeKind::torus)
       return scale_ * quartic(shape_.ring_radius, shape_.tube_radius, x);
     return scale_ * quadric(axes_, x);
@@ -155,6 +162,7 @@ public:
 private:
   Shape shape_;
   Rotation rotation_;
+  Displacement displacement_;
   Vec3 axes_{};
   double scale_;
 };
@@ -180,8 +188,10 @@ Vec3 semi_axes(const Shape& shape) {
   }
   case ShapeKind::ellipsoid:
     return shape.semi_axes;
-  default:
+  case ShapeKind::sphere:
     return {shape.radius, shape.radius, shape.radius};
+  default:
+    throw std::logic_error("this kind of shape has no semi-axes");
   }
 }
 
@@ -210,6 +220,17 @@ Bounds bounding_box(const Shape& shape) {
   return box;
 }
 
+double largest_radius(const Shape& shape) {
+  if (shape.kind == ShapeKind::torus) return shape.ring_radius + shape.tube_radius;
+  const Vec3 axes = semi_axes(shape);
+  return std::max(axes[0], axes[1]);
+}
+
+double largest_extent(const Shape& shape) {
+  if (shape.kind == ShapeKind::torus) return 2 * largest_radius(shape);
+  return 2 * std::ranges::max(semi_axes(shape));
+}
+
 double smallest_half_thickness(const Shape& shape) {
   if (shape.kind == ShapeKind::torus)
     return std::min(shape.tube_radius, shape.ring_radius - shape.tube_radius);
@@ -222,21 +243,24 @@ double smallest_radius_of_curvature(const Shape& shape) {
   return smallest * smallest / largest;
 }
 
-double shape_function(const Shape& shape, const Vec3& point) {
+double shape_function(const Shape& shape, const Vec3& point, const Perturbation& perturbation) {
   const Vec3& c = shape.center;
-  return LevelSet(shape)({point[0] - c[0], point[1] - c[1], point[2] - c[2]});
+  return LevelSet(shape, perturbation)({point[0] - c[0], point[1] - c[1], point[2] - c[2]});
 }
 
-std::vector<double> initial_phi(const Shape& shape, const Grid& grid) {
-  const LevelSet level_set(shape);
+std::vector<double> initial_phi(const Shape& shape, const Grid& grid,
+                                const Perturbation& perturbation) {
+  const LevelSet level_set(shape, perturbation);
   const double shortest = grid.spacing * std::ranges::min(grid.nodes);
   const double width = std::max(16 * grid.spacing, shortest / 4);
   std::vector<double> phi(grid.size());
-  for (std::size_t n = 0; n < phi.size(); ++n) {
-    Vec3 d = grid.position(n);
-    for (int i = 0; i < 3; ++i) d[i] = std::remainder(d[i] - shape.center[i], grid.length(i));
-    phi[n] = width * std::tanh(level_set(d) / width);
-  }
+  parallel_for(phi.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      Vec3 d = grid.position(n);
+      for (int i = 0; i < 3; ++i) d[i] = std::remainder(d[i] - shape.center[i], grid.length(i));
+      phi[n] = width * std::tanh(level_set(d) / width);
+    }
+  });
   return phi;
 }
 

@@ -11,6 +11,8 @@ namespace lamella {
 double oblate_axis_ratio(double reduced_volume);
 double prolate_axis_ratio(double reduced_volume);
 
+// All that follows is for analytic shapes; std::logic_error for ShapeKind::frame.
+
 /// Semi-axes along the body's own x, y, z of any shape but the torus.
 Vec3 semi_axes(const Shape& shape);
 
@@ -24,6 +26,10 @@ struct Bounds {
 
 /// The smallest axis-parallel box that holds the rotated, shifted shape.
 Bounds bounding_box(const Shape& shape);
+
+/// Largest distance from the shape's axis, z before rotation, and between any two points.
+double largest_radius(const Shape& shape);
+double largest_extent(const Shape& shape);
 
 /// Radius of the largest ball that fits inside at the thinnest place: smallest semi-axis, tube
 /// radius. The hole of a torus counts too, as the half-thickness of what lies outside.
@@ -40,9 +46,13 @@ double smallest_radius_of_curvature(const Shape& shape);
 /// larger of 16 spacings and a quarter of the box, so that it is nearly periodic. (A
 /// first-order distance, f / |grad f|, is smooth too, but not on the scale of a thin rim: at 64^3
 /// it put an error of 70 % into Lap_s K_M at the rim of the oblate with reduced volume 0.6.)
-std::vector<double> initial_phi(const Shape& shape, const Grid& grid);
+///
+/// A perturbation is taken into the argument, phi(x - w(x)) with w its displacement: to first order
+/// it moves the surface by w.
+std::vector<double> initial_phi(const Shape& shape, const Grid& grid,
+                                const Perturbation& perturbation = {});
 
 /// The scaled polynomial at one point of unbounded space.
-double shape_function(const Shape& shape, const Vec3& point);
+double shape_function(const Shape& shape, const Vec3& point, const Perturbation& perturbation = {});
 
 } // namespace lamella

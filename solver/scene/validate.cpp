@@ -1,5 +1,6 @@
 #include "error.h"
 #include "scene/keys.h"
+#include "scene/perturbation.h"
 #include "scene/scene.h"
 #include "scene/shapes.h"
 
@@ -19,6 +20,8 @@ constexpr double least_clearance = 3;
 constexpr double least_half_thickness = 1.5;
 constexpr double least_radius_of_curvature = 0.4;
 constexpr double largest_curvature_times_spacing = 1;
+constexpr double least_wrinkling_length = 2;
+constexpr double least_wavelength = 4; // of a perturbation
 constexpr double rounding = 1e-9;
 
 class Rules {
@@ -29,12 +32,21 @@ public:
     name();
     title();
     for (const Key& key : scene_keys())
-      if (key.belongs_to(scene_.shape.kind)) range(key);
-    torus_closes();
-    rotation_axis();
-    clearance();
-    resolution();
+      if (key.counts_in(scene_)) range(key);
+    if (scene_.shape.kind == ShapeKind::frame) {
+      frame();
+    } else {
+      torus_closes();
+      rotation_axis();
+      perturbation();
+      clearance();
+      resolution();
+    }
+    if (scene_.volume.constraint == Constraint::ramped) ramp("volume", scene_.volume.ramp);
+    if (scene_.area_difference.constraint == Constraint::ramped)
+      ramp("area_difference", scene_.area_difference.ramp);
     spontaneous_curvature();
+    pressure();
   }
 
 private:
@@ -73,6 +85,8 @@ private:
     if (const auto* number = std::get_if<Member<int>>(&key.access)) in_range(key, (*number)(scene));
     if (const auto* vector = std::get_if<Member<Vec3>>(&key.access))
       for (const double x : (*vector)(scene)) in_range(key, x);
+    if (const auto* list = std::get_if<Member<std::vector<double>>>(&key.access))
+      for (const double x : (*list)(scene)) in_range(key, x);
     if (const auto* nodes = std::get_if<Member<std::array<int, 3>>>(&key.access))
       for (const int n : (*nodes)(scene)) in_range(key, n);
   }
@@ -89,6 +103,16 @@ private:
     else if (key.name == "reduced_volume" && x > 1)
       why = "is more than the sphere's 1, which no closed surface exceeds";
     refuse({key.path()}, fmt::format("{} {}; allowed: {}", x, why, allowed_text(key)));
+  }
+
+  /// What else a stored state must be is known once it is read.
+  void frame() const {
+    if (scene_.shape.file.empty())
+      refuse({"shape.file", "shape.kind"},
+             "no file; allowed: a stored frame, or the folder of a run for its last one");
+    if (scene_.perturbation.amplitude > 0)
+      refuse({"perturbation.amplitude", "shape.kind"},
+             "a stored frame is taken as it is; allowed: 0 with kind = \"frame\"");
   }
 
   void torus_closes() const {
@@ -134,7 +158,9 @@ private:
       const double side = grid.length(i) / 2;
       const bool at_high_side = side - box.high[i] < side + box.low[i];
       const double reach = at_high_side ? box.high[i] : box.low[i];
-      const double free = std::min(side - box.high[i], side + box.low[i]) / grid.spacing;
+      const double free =
+          (std::min(side - box.high[i], side + box.low[i]) - scene_.perturbation.amplitude) /
+          grid.spacing;
       if (free >= least_clearance * (1 - rounding)) continue;
       Keys keys = size_keys();
       keys.insert(keys.end(), {"shape.center", "shape.rotation_angle", "shape.rotation_axis"});
@@ -168,16 +194,71 @@ private:
                what, spacings, least, finer_grid(least / spacings)));
   }
 
+  /// A displacement that neither folds the surface nor is lost on the grid.
+  void perturbation() const {
+    const Perturbation& p = scene_.perturbation;
+    if (p.amplitude == 0) return;
+    if (p.fold > 0 && p.wavelength > 0)
+      refuse({"perturbation.wavelength", "perturbation.fold"},
+             "does not count where fold does; allowed: one of the two");
+    const double wavelength = shortest_wavelength(p, scene_.shape);
+    const double spacings = wavelength / scene_.grid().spacing;
+    if (spacings < least_wavelength * (1 - rounding))
+      refuse(with_grid({"perturbation.wavelength", "perturbation.fold", "perturbation.amplitude"}),
+             fmt::format("the grid is too coarse for the perturbation, whose shortest wavelength "
+                         "is {:.3g} grid spacings; allowed: at least {:g}; {}",
+                         spacings, least_wavelength, finer_grid(least_wavelength / spacings)));
+    const double thickness = smallest_half_thickness(scene_.shape);
+    const double largest = std::min(thickness / 2, wavelength / 10);
+    if (p.amplitude > largest * (1 + rounding))
+      refuse({"perturbation.amplitude", "perturbation.wavelength", "perturbation.fold"},
+             fmt::format("{} is too large for this shape; allowed: at most {:.3g}, half the "
+                         "smallest half-thickness and a tenth of the shortest wavelength",
+                         p.amplitude, largest));
+  }
+
+  void ramp(std::string_view section, const Ramp& ramp) const {
+    const std::string constraint = fmt::format("{}.constraint", section);
+    const std::string targets = fmt::format("{}.targets", section);
+    const std::string start_times = fmt::format("{}.start_times", section);
+    if (ramp.targets.empty())
+      refuse({targets, constraint},
+             "nothing to be led to; allowed: at least one number, as in targets = [0.9]");
+    if (ramp.targets.size() != ramp.start_times.size())
+      refuse({start_times, targets},
+             fmt::format("{} targets but {} start times; allowed: one start time for each target",
+                         ramp.targets.size(), ramp.start_times.size()));
+    const auto late = std::ranges::adjacent_find(ramp.start_times, std::ranges::greater_equal{});
+    if (late != ramp.start_times.end())
+      refuse({start_times},
+             fmt::format("{} before {}; allowed: times that grow", late[0], late[1]));
+  }
+
   void spontaneous_curvature() const {
-    const double c = scene_.membrane.spontaneous_curvature;
+    const AreaDifferenceConstraint& a = scene_.area_difference;
+    double c = scene_.membrane.spontaneous_curvature;
+    if (a.constraint == Constraint::free) c -= a.multiplier / (2 * scene_.membrane.bending_modulus);
     const double product = std::abs(c) * scene_.grid().spacing;
-    if (product > largest_curvature_times_spacing * (1 + rounding))
-      refuse({"membrane.spontaneous_curvature", "grid.nodes", "grid.half_width"},
-             fmt::format(
-                 "the grid is too coarse for buds of radius 2 / |C| = {:.3g}: |C| times the grid "
-                 "spacing is {:.3g}; allowed: at most {:g}; {}",
-                 2 / std::abs(c), product, largest_curvature_times_spacing,
-                 finer_grid(product / largest_curvature_times_spacing)));
+    if (product <= largest_curvature_times_spacing * (1 + rounding)) return;
+    refuse(with_grid({"membrane.spontaneous_curvature", "area_difference.multiplier"}),
+           fmt::format(
+               "the grid is too coarse for buds of radius 2 / |C| = {:.3g}: |C| times the grid "
+               "spacing is {:.3g}; allowed: at most {:g}; {}",
+               2 / std::abs(c), product, largest_curvature_times_spacing,
+               finer_grid(product / largest_curvature_times_spacing)));
+  }
+
+  void pressure() const {
+    if (scene_.volume.constraint != Constraint::free) return;
+    const double p = std::abs(scene_.volume.pressure);
+    const double length = std::cbrt(scene_.membrane.bending_modulus / p);
+    const double spacings = length / scene_.grid().spacing;
+    if (spacings >= least_wrinkling_length * (1 - rounding)) return;
+    refuse(with_grid({"volume.pressure"}),
+           fmt::format("the grid is too coarse for wrinkles of (bending_modulus / |P|)^(1/3) = "
+                       "{:.3g}, {:.3g} grid spacings; allowed: at least {:g}; {}",
+                       length, spacings, least_wrinkling_length,
+                       finer_grid(least_wrinkling_length / spacings)));
   }
 
   /// What to do about a grid that is too coarse by a factor.

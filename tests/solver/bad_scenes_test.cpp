@@ -67,8 +67,8 @@ std::vector<BadScene> bad_scenes() {
        "bad.toml:1: [grid] nodes: a section does not fit", "integer"},
       {"ControlCharactersInAKey", "[grid]\n\"no\\ndes\\u001b\" = 64\n",
        "bad.toml:2: [grid] no?des?: unknown key", "nodes"},
-      {"TitleOfTwoLines", "title = \"two\\nlines\"\n" + fine, "bad.toml:1: title: not a line of text",
-       "at most 200"},
+      {"TitleOfTwoLines", "title = \"two\\nlines\"\n" + fine,
+       "bad.toml:1: title: not a line of text", "at most 200"},
       {"NameThatLeavesTheFolder", "name = \"../x\"\n" + fine,
        "bad.toml:1: name:", "cannot name a folder"},
 
@@ -94,13 +94,11 @@ std::vector<BadScene> bad_scenes() {
       // Choices
       {"UnknownKind", "[shape]\nkind = \"Oblat\"\n", "bad.toml:2: [shape] kind: the text \"Oblat\"",
        "did you mean \"oblate\"?"},
-      {"FreeVolume", fine + "[constraints]\nvolume = \"free\"\n",
-       "bad.toml:5: [constraints] volume:", "not available in this release; allowed: \"fixed\""},
-      {"FreeArea", fine + "[constraints]\narea = \"free\"\n",
-       "bad.toml:5: [constraints] area:", "not available in this release; allowed: \"fixed\""},
+      {"UnknownConstraint", fine + "[volume]\nconstraint = \"frei\"\n",
+       "bad.toml:5: [volume] constraint: the text \"frei\"", "did you mean \"free\"?"},
       {"KeyOfAnotherKind", torus + "semi_axis = 0.7\n",
        "bad.toml:3: [shape] semi_axis: belongs to kind",
-       "\"oblate\" or \"prolate\", not \"torus\"; allowed: ring_radius, tube_radius"},
+       "\"oblate\" or \"prolate\", not \"torus\"; allowed: kind, ring_radius, tube_radius"},
       {"KeyOfAnotherKindThanTheDefault", "[shape]\nradius = 0.7\n",
        "bad.toml:2: [shape] radius: belongs to", "\"sphere\", not \"oblate\""},
 

@@ -61,9 +61,29 @@ rotation_angle = -30.5
 [membrane]
 bending_modulus = 20
 spontaneous_curvature = -1.5
-[constraints]
-volume = "fixed"
-area = "fixed"
+[perturbation]
+amplitude = 0.01
+wavelength = 0.25
+seed = 7
+fold = 0
+[volume]
+constraint = "ramped"
+targets = [0.95, 0.9]
+start_times = [0, 1e-3]
+rate = 20
+[area_difference]
+constraint = "free"
+multiplier = 12
+[contact]
+topology_changes = false
+disjoining_pressure = 1e3
+disjoining_range = 0.01
+rupture_thickness = 0.05
+[stop]
+energy_rate = 1e-3
+residual_force = 0.1
+topology_changes = 4
+wall_time = 3600
 [run]
 end_time = 2e-2
 [numerics]
@@ -82,7 +102,17 @@ frames = 5
   expected.shape.center = {0.1, 0, -0.2};
   expected.shape.rotation_axis = {1, 2, 3};
   expected.shape.rotation_angle = -30.5;
+  expected.perturbation = {.amplitude = 0.01, .wavelength = 0.25, .seed = 7, .fold = 0};
   expected.membrane = {20, -1.5};
+  expected.volume.constraint = Constraint::ramped;
+  expected.volume.ramp = {.targets = {0.95, 0.9}, .start_times = {0, 1e-3}, .rate = 20};
+  expected.area_difference.multiplier = 12;
+  expected.contact = {.topology_changes = false,
+                      .disjoining_pressure = 1e3,
+                      .disjoining_range = 0.01,
+                      .rupture_thickness = 0.05};
+  expected.stop = {
+      .energy_rate = 1e-3, .residual_force = 0.1, .topology_changes = 4, .wall_time = 3600};
   expected.end_time = 2e-2;
   expected.numerics = {0.01, 1e-4};
   expected.output.frames = 5;
