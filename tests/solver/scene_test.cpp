@@ -168,7 +168,7 @@ TEST(Overrides, AreBlamedForTheRuleTheyBreak) {
 }
 
 TEST(Builtin, ScenesAreValidAndCarryTheirTitles) {
-  ASSERT_GE(builtin_scenes().size(), 4u);
+  ASSERT_GE(builtin_scenes().size(), 15u);
   for (const BuiltinScene& builtin : builtin_scenes()) {
     const Scene scene = builtin_scene(builtin.name);
     EXPECT_EQ(scene.title, builtin.title);
