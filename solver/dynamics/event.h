@@ -2,7 +2,9 @@
 #include "grid/grid.h"
 
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace lamella {
 
@@ -20,7 +22,7 @@ struct Event {
   };
   Kind kind = Kind::fission;
   double time = 0;
-  Vec3 place{};
+  Vec3 place{}; ///< where ParaView shows it: the cells by which the box has moved are added
   double size =
       0; ///< length: neck radius, half the thickness of a film or gap, radius of curvature
   int components_before = 0, components_after = 0;
@@ -30,13 +32,17 @@ struct Event {
   std::array<int, 3> cells{};                 ///< recentred: the box moved by so many
 
   bool changes_topology() const { return kind <= Kind::vanished; }
+  bool is_under_resolved() const { return kind >= Kind::sharp; }
   bool operator==(const Event&) const = default;
 };
 
 /// "fission", "thin_inside"
-const char* to_string(Event::Kind kind);
+std::string_view to_string(Event::Kind kind);
+/// The other way round; nothing for another word.
+std::optional<Event::Kind> event_kind(std::string_view word);
 
-/// One line for a person: "t = 2.51e-4: neck cut at (0.1, 0.2, 0): 1 -> 2 components ..."
-std::string to_text(const Event& event);
+/// One line for a person, on a grid of the given spacing: "t = 0.000251: a neck was cut at (0.1,
+/// 0.2, 0): components 1 -> 2, ..."
+std::string to_text(const Event& event, double spacing);
 
 } // namespace lamella

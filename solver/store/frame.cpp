@@ -6,6 +6,7 @@
 #include "store/posix_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,7 @@ namespace {
 
 constexpr int most_nodes_along_axis = 1024;
 constexpr std::size_t most_nodes = std::size_t(1) << 28;
+constexpr int most_cells = 1'000'000;
 constexpr std::size_t most_inflation = 1100; // deflate reaches 1032
 constexpr int deflate_level = 1;
 constexpr hsize_t chunk_planes = 8;
@@ -60,6 +62,8 @@ void check(const std::filesystem::path& file, const Frame& frame) {
   if (frame.phi.size() != frame.grid.size())
     refuse(
         fmt::format("phi has {} values, the grid {} nodes", frame.phi.size(), frame.grid.size()));
+  if (std::ranges::any_of(frame.cells, [](int n) { return std::abs(n) > most_cells; }))
+    refuse(fmt::format("the box has moved by ({}) cells", fmt::join(frame.cells, ", ")));
   if (!std::isfinite(frame.time)) refuse(fmt::format("the time is {}", frame.time));
   if (!all_finite(frame.phi)) refuse("phi has values that are not finite");
 }
@@ -138,7 +142,9 @@ void write_contents(hid_t file, const Frame& frame) {
   write_type_attribute(vtk);
   write_attribute(vtk, "WholeExtent",
                   std::array{0, grid.nx() - 1, 0, grid.ny() - 1, 0, grid.nz() - 1});
-  write_attribute(vtk, "Origin", Vec3{grid.origin(0), grid.origin(1), grid.origin(2)});
+  Vec3 origin;
+  for (int i = 0; i < 3; ++i) origin[i] = grid.origin(i) + frame.cells[i] * grid.spacing;
+  write_attribute(vtk, "Origin", origin);
   write_attribute(vtk, "Spacing", Vec3{grid.spacing, grid.spacing, grid.spacing});
   write_attribute(vtk, "Direction", std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
   const H5Handle points = create_group(vtk, "PointData");
@@ -197,6 +203,7 @@ public:
     const H5Handle vtk = required(H5Gopen2(file, "VTKHDF", H5P_DEFAULT), "no group VTKHDF");
     Frame frame;
     frame.grid = read_grid(vtk);
+    frame.cells = read_cells(vtk, frame.grid);
     const H5Handle lamella = required(H5Gopen2(file, "lamella", H5P_DEFAULT), "no group lamella");
     frame.time = read_attribute<double, 1>(lamella, "time")[0];
     frame.phi = read_phi(vtk, frame.grid);
@@ -253,7 +260,6 @@ private:
   Grid read_grid(hid_t vtk) const {
     const auto extent = read_attribute<int, 6>(vtk, "WholeExtent");
     const auto spacing = read_attribute<double, 3>(vtk, "Spacing");
-    const auto origin = read_attribute<double, 3>(vtk, "Origin");
     Grid grid{{}, spacing[0]};
     for (int i = 0; i < 3; ++i) {
       if (extent[2 * i] != 0 || extent[2 * i + 1] < 0 || extent[2 * i + 1] >= most_nodes_along_axis)
@@ -264,10 +270,19 @@ private:
     if (!(spacing[0] > 0) || !std::isfinite(spacing[0]) || spacing[1] != spacing[0] ||
         spacing[2] != spacing[0])
       refuse("the grid spacing must be positive and the same along all axes");
-    for (int i = 0; i < 3; ++i)
-      if (!(std::abs(origin[i] - grid.origin(i)) <= 1e-9 * grid.spacing))
-        refuse("the grid is not centred");
     return grid;
+  }
+
+  std::array<int, 3> read_cells(hid_t vtk, const Grid& grid) const {
+    const auto origin = read_attribute<double, 3>(vtk, "Origin");
+    std::array<int, 3> cells{};
+    for (int i = 0; i < 3; ++i) {
+      const double moved = (origin[i] - grid.origin(i)) / grid.spacing, whole = std::round(moved);
+      if (!(std::abs(whole) <= most_cells && std::abs(moved - whole) <= 1e-6))
+        refuse("Origin is not a whole number of cells from that of a centred grid");
+      cells[i] = int(whole);
+    }
+    return cells;
   }
 
   std::vector<double> read_phi(hid_t vtk, const Grid& grid) const {

@@ -1,6 +1,7 @@
 #pragma once
+#include "dynamics/event.h"
 #include "dynamics/measures.h"
-#include "store/posix_file.h"
+#include "store/table.h"
 
 #include <filesystem>
 #include <span>
@@ -9,26 +10,30 @@
 
 namespace lamella {
 
-/// history.csv: a line of column names, then one row per Measures with 12 significant digits. Every
-/// row is in the file when add returns, so that a killed run keeps its rows.
-class HistoryWriter {
-public:
-  /// Replaces the file. Throws StoreError, as add does.
-  explicit HistoryWriter(const std::filesystem::path& file);
+/// The columns of history.csv and of events.csv, with the values of one row.
+Row row_of(Measures& measures);
+Row row_of(Event& event);
 
-  /// Refuses measures that are not finite. After a failure the file still ends with a whole row.
-  void add(const Measures& measures);
+/// A table that grows by records. Both functions throw StoreError, see TableWriter.
+template <class Record>
+class RecordWriter {
+public:
+  /// Replaces the file.
+  explicit RecordWriter(const std::filesystem::path& file) : RecordWriter(file, Record{}) {}
+  void add(Record record) { table_.add(row_of(record)); }
 
 private:
-  void append(const std::string& line);
+  RecordWriter(const std::filesystem::path& file, Record any) : table_(file, row_of(any)) {}
 
-  std::filesystem::path path_;
-  PosixFile file_;
-  std::size_t size_ = 0; ///< of the whole rows
+  TableWriter table_;
 };
 
-/// Throws StoreError for anything but what HistoryWriter wrote, with the line.
+using HistoryWriter = RecordWriter<Measures>; ///< history.csv: the start and every step
+using EventWriter = RecordWriter<Event>;      ///< events.csv
+
+/// Throw StoreError for anything but what these writers wrote, with the line.
 std::vector<Measures> read_history(const std::filesystem::path& file);
+std::vector<Event> read_events(const std::filesystem::path& file);
 
 /// A stored frame as ParaView lists it.
 struct SeriesEntry {

@@ -87,7 +87,7 @@ protected:
 class FrameStore : public Store {
 protected:
   static Frame sample() {
-    Frame frame{{{16, 12, 10}, 0.1 / 3}, 1.25e-4, {}};
+    Frame frame{{{16, 12, 10}, 0.1 / 3}, 1.25e-4, {}, {3, 0, -12}};
     for (std::size_t n = 0; n < frame.grid.size(); ++n) {
       const auto [x, y, z] = frame.grid.position(n);
       frame.phi.push_back(std::sin(7 * x) + y * y - std::exp(z));
@@ -136,9 +136,25 @@ TEST_F(FrameStore, ReadsWhatItWroteToTheLastBit) {
   const Frame back = read_frame(file());
   EXPECT_EQ(back.grid, frame.grid);
   EXPECT_EQ(back.time, frame.time);
+  EXPECT_EQ(back.cells, frame.cells);
   ASSERT_EQ(back.phi.size(), frame.phi.size());
   EXPECT_EQ(std::memcmp(back.phi.data(), frame.phi.data(), frame.phi.size() * sizeof(double)), 0);
   EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FrameStore, PutsTheVesicleWhereTheBoxHasMovedTo) {
+  Frame frame = sample();
+  for (const int cells : {0, 1, -1'000'000, 1'000'000}) {
+    frame.cells = {cells, -cells, 0};
+    write_frame(file(), frame);
+    EXPECT_EQ(read_frame(file()).cells, frame.cells);
+  }
+  frame.cells = {7, 0, 0};
+  write_frame(file(), frame);
+  const double h = frame.grid.spacing,
+               origin[]{frame.grid.origin(0) + 7 * h, frame.grid.origin(1), frame.grid.origin(2)};
+  EXPECT_THAT(content_of(file()),
+              HasSubstr(std::string(reinterpret_cast<const char*>(origin), sizeof origin)));
 }
 
 TEST_F(FrameStore, EqualFramesMakeEqualFiles) {
@@ -169,6 +185,8 @@ TEST_F(FrameStore, RefusesFramesThatNoReaderWouldTake) {
               HasSubstr("phi has 1919 values, the grid 1920"));
   EXPECT_THAT(message([](Frame& f) { f.grid.spacing = 0; }), HasSubstr("spacing"));
   EXPECT_THAT(message([](Frame& f) { f.grid.nodes[1] = -12; }), HasSubstr("16 x -12 x 10 nodes"));
+  EXPECT_THAT(message([](Frame& f) { f.cells[2] = -1000001; }),
+              HasSubstr("the box has moved by (3, 0, -1000001) cells"));
   EXPECT_EQ(content_of(file()), "older");
   EXPECT_EQ(files(), 1u);
 }
@@ -245,7 +263,7 @@ TEST_F(FrameStore, RefusesForgedFilesBeforeAllocating) {
   EXPECT_THAT(with_extent({0, -2, 0, 11, 0, 9}), HasSubstr("WholeExtent is out of range"));
   EXPECT_THAT(with_extent({1, 16, 0, 11, 0, 9}), HasSubstr("WholeExtent is out of range"));
   EXPECT_THAT(with_extent({0, 1023, 0, 1023, 0, 1023}), HasSubstr("WholeExtent is out of range"));
-  EXPECT_THAT(with_extent({0, 31, 0, 11, 0, 9}), HasSubstr("not centred"));
+  EXPECT_THAT(with_extent({0, 31, 0, 11, 0, 9}), HasSubstr("does not agree with WholeExtent"));
 
   using Numbers = std::vector<double>;
   const double h = sample().grid.spacing;
@@ -256,6 +274,16 @@ TEST_F(FrameStore, RefusesForgedFilesBeforeAllocating) {
   EXPECT_THAT(with_spacing({nan, nan, nan}), HasSubstr("must be positive"));
   EXPECT_THAT(with_spacing({-h, -h, -h}), HasSubstr("must be positive"));
   EXPECT_THAT(message_for(forged(Numbers{sample().time}, Numbers{nan})), HasSubstr("not finite"));
+
+  const Frame frame = sample();
+  Numbers origin;
+  for (int i = 0; i < 3; ++i) origin.push_back(frame.grid.origin(i) + frame.cells[i] * h);
+  const auto with_origin_moved_by = [&](double x) {
+    return message_for(forged(origin, Numbers{origin[0] + x, origin[1], origin[2]}));
+  };
+  EXPECT_EQ(with_origin_moved_by(2 * h), "no StoreError");
+  for (const double x : {0.5 * h, 1.001 * h, 2e6 * h, nan, infinity})
+    EXPECT_THAT(with_origin_moved_by(x), HasSubstr("Origin is not a whole number of cells")) << x;
 
   // The size that the data set itself states, along z, y, x and once more as the largest allowed.
   const Integers size{10, 12, 16, 10, 12, 16}, huge{1000, 1000, 1000, 1000, 1000, 1000};
@@ -286,8 +314,9 @@ protected:
   fs::path file() const { return folder_ / "history.csv"; }
 };
 
-const std::string history_header = "t,dt,energy,bending_energy,int_KM2,P,sigma,sigma_DA,A,V,v,Da,"
-                                   "dA_rel,dV_rel,max_speed,components,genus";
+const std::string history_header =
+    "t,dt,energy,bending_energy,int_KM2,P,sigma,sigma_DA,A,V,v,Da,"
+    "dA_rel,dV_rel,max_speed,components,genus";
 
 TEST_F(HistoryStore, KeepsRowsToTwelveDigits) {
   HistoryWriter writer(file());
@@ -365,8 +394,59 @@ TEST_F(HistoryStore, ReadsNothingButHistories) {
         std::string("1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16.5,17\n"),
         std::string("1,,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17\n"),
         std::string("1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,99999999999\n")})
-    EXPECT_THAT(message(start + bad), HasSubstr("csv:3: not a history: expected 17 finite numbers"))
+    EXPECT_THAT(message(start + bad), HasSubstr("csv:3: not a history: expected 17 finite values"))
         << bad;
+}
+
+class EventStore : public Store {
+protected:
+  static Event event() {
+    return {Event::Kind::thin_outside, 1, {2, 3, 4}, 5, 6, 7, 8, 9, 10, 11, 12, 13, {14, 15, 16}};
+  }
+
+  fs::path file() const { return folder_ / "events.csv"; }
+};
+
+const std::string event_header =
+    "t,kind,x,y,z,size,components_before,components_after,genus_before,"
+    "genus_after,A_before,A_cut,energy_before,energy_after,cells_x,"
+    "cells_y,cells_z";
+
+TEST_F(EventStore, WritesARowForEveryEvent) {
+  EventWriter(file()).add(event());
+  EXPECT_EQ(content_of(file()),
+            event_header + "\n1,thin_outside,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n");
+}
+
+TEST_F(EventStore, ReadsWhatItWrote) {
+  EventWriter writer(file());
+  EXPECT_TRUE(read_events(file()).empty());
+  std::vector<Event> events(2, event());
+  events[1].kind = Event::Kind::fission;
+  events[1].place = {-0.125, 1e-9, 0};
+  for (const Event& e : events) writer.add(e);
+  EXPECT_EQ(read_events(file()), events);
+}
+
+TEST_F(EventStore, RefusesEventsThatAreNotFinite) {
+  EventWriter writer(file());
+  Event bad = event();
+  bad.place[1] = infinity;
+  EXPECT_THAT(message_of([&] { writer.add(bad); }),
+              HasSubstr("row not written: y is inf at t = 1"));
+  EXPECT_TRUE(read_events(file()).empty());
+}
+
+TEST_F(EventStore, ReadsNothingButEvents) {
+  const auto message = [&](const std::string& kind) {
+    put(file(), event_header + "\n1," + kind + ",2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n");
+    return message_of([&] { read_events(file()); });
+  };
+  EXPECT_EQ(message("fission"), "no StoreError");
+  for (const char* bad : {"fissions", "", "0"})
+    EXPECT_THAT(message(bad), HasSubstr("csv:2: not a table of events: expected 17 finite values"));
+  put(file(), history_header + "\n");
+  EXPECT_THAT(message_of([&] { read_events(file()); }), HasSubstr("csv:1: not a table of events"));
 }
 
 TEST_F(Store, SeriesListsFramesForParaView) {
