@@ -211,10 +211,11 @@ private:
     const double thickness = smallest_half_thickness(scene_.shape);
     const double largest = std::min(thickness / 2, wavelength / 10);
     if (p.amplitude > largest * (1 + rounding))
-      refuse({"perturbation.amplitude", "perturbation.wavelength", "perturbation.fold"},
-             fmt::format("{} is too large for this shape; allowed: at most {:.3g}, half the "
-                         "smallest half-thickness and a tenth of the shortest wavelength",
-                         p.amplitude, largest));
+      refuse(
+          {"perturbation.amplitude", "perturbation.wavelength", "perturbation.fold"},
+          fmt::format("{} is too large for this shape; allowed: at most {:.3g}, the less of half "
+                      "the smallest half-thickness and a tenth of the shortest wavelength",
+                      p.amplitude, largest));
   }
 
   void ramp(std::string_view section, const Ramp& ramp) const {
@@ -225,9 +226,11 @@ private:
       refuse({targets, constraint},
              "nothing to be led to; allowed: at least one number, as in targets = [0.9]");
     if (ramp.targets.size() != ramp.start_times.size())
-      refuse({start_times, targets},
-             fmt::format("{} targets but {} start times; allowed: one start time for each target",
-                         ramp.targets.size(), ramp.start_times.size()));
+      refuse(
+          {start_times, targets},
+          fmt::format("the numbers of targets ({}) and start times ({}) differ; allowed: one start "
+                      "time for each target",
+                      ramp.targets.size(), ramp.start_times.size()));
     const auto late = std::ranges::adjacent_find(ramp.start_times, std::ranges::greater_equal{});
     if (late != ramp.start_times.end())
       refuse({start_times},

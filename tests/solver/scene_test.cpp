@@ -131,6 +131,31 @@ TEST(Scene, IsTheSameAfterWritingAndReading) {
   }
 }
 
+TEST(Scene, IsTheSameAfterWritingAndReadingUnderEveryConstraint) {
+  for (const char* name : {"fig7b", "fig8b", "fig8e"}) {
+    const Scene scene = builtin_scene(name);
+    EXPECT_EQ(parse_scene(to_toml(scene), "other.toml"), scene) << to_toml(scene);
+  }
+}
+
+TEST(Scene, TakesASingleTargetFromTheStart) {
+  const Scene scene =
+      parse_scene("[volume]\nconstraint = \"ramped\"\ntargets = 0.55\n", "scene.toml");
+  EXPECT_EQ(scene.volume.ramp.targets, std::vector{0.55});
+  EXPECT_EQ(scene.volume.ramp.start_times, std::vector{0.0});
+}
+
+TEST(Scene, OfAFrameIsAsValidAsItsFileWillProve) {
+  const Scene scene = parse_scene(
+      "[shape]\nkind = \"frame\"\nfile = \"run\"\n[grid]\nhalf_width = 100\n", "scene.toml");
+  EXPECT_EQ(scene.shape.file, "run");
+}
+
+TEST(Scene, OfACurvatureThatTheMultiplierMakesUpForIsResolved) {
+  EXPECT_NO_THROW(parse_scene(
+      "[membrane]\nspontaneous_curvature = -40\n[area_difference]\nmultiplier = -60\n", "x.toml"));
+}
+
 TEST(Scene, WritesWhatCountsAndOnlyThat) {
   const std::string text = to_toml(scene_of_kind(ShapeKind::torus));
   EXPECT_THAT(text, HasSubstr("ring_radius = 0.5"));
@@ -159,6 +184,15 @@ TEST(Overrides, OfTheKindDropTheKeysOfTheOldShape) {
   const Scene scene = builtin_scene("fig3_oblate", changes);
   EXPECT_EQ(scene.shape.kind, ShapeKind::torus);
   EXPECT_EQ(scene.shape.tube_radius, 0.15);
+}
+
+TEST(Overrides, OfAConstraintDropTheKeysOfTheOldOne) {
+  const Overrides changes{"area_difference.constraint=free", "area_difference.multiplier=3",
+                          "volume.constraint=fixed"};
+  const Scene scene = builtin_scene("fig8b", changes);
+  EXPECT_EQ(scene.area_difference.constraint, Constraint::free);
+  EXPECT_EQ(scene.area_difference.multiplier, 3);
+  EXPECT_EQ(scene.area_difference.ramp, Ramp{});
 }
 
 TEST(Overrides, AreBlamedForTheRuleTheyBreak) {
@@ -205,6 +239,16 @@ TEST(Keys, HaveValidDefaultsUniqueNamesAndHelp) {
   }
 }
 
+TEST(Keys, CountForValuesThatTheChoiceOfTheirSectionHas) {
+  for (const Key& key : scene_keys()) {
+    if (key.cases.empty()) continue;
+    const Key* decides = choice_key(key.section);
+    ASSERT_NE(decides, nullptr) << key.path();
+    EXPECT_THAT(std::get<Choice>(decides->access).names, testing::IsSupersetOf(key.cases))
+        << key.path();
+  }
+}
+
 TEST(Keys, AreDocumented) {
   const std::string docs = content_of(LAMELLA_SOURCE_DIR "/docs/scene-format.md");
   EXPECT_THAT(docs, HasSubstr(describe_keys()))
@@ -212,12 +256,17 @@ TEST(Keys, AreDocumented) {
       << describe_keys();
 }
 
-TEST(Docs, ExampleIsAScene) {
+TEST(Docs, ExamplesAreScenes) {
   const std::string docs = content_of(LAMELLA_SOURCE_DIR "/docs/scene-format.md");
-  const auto begin = docs.find("```toml\n") + 8;
-  const Scene scene =
-      parse_scene(docs.substr(begin, docs.find("```", begin) - begin), "example.toml");
-  EXPECT_FALSE(scene.title.empty());
+  const std::string opening = "```toml\n";
+  int count = 0;
+  for (auto at = docs.find(opening); at != docs.npos; at = docs.find(opening, at)) {
+    at += opening.size();
+    const std::string example = docs.substr(at, docs.find("```", at) - at);
+    EXPECT_NO_THROW(parse_scene(example, "example.toml")) << example;
+    ++count;
+  }
+  EXPECT_GE(count, 7);
 }
 
 TEST(Nearest, CountsEditsAndKnowsItsLimit) {

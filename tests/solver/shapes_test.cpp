@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 
 namespace lamella {
 namespace {
@@ -235,6 +236,130 @@ TEST(StartLevelSet, TurnsRightHandedAboutTheAxis) {
   shape.rotation_angle = 45;
   EXPECT_LT(shape_function(shape, {0.45, 0.45, 0}), 0);
   EXPECT_GT(shape_function(shape, {0.45, -0.45, 0}), 0);
+}
+
+/// How far outward along the normal, or inward if negative, a perturbed surface lies from a point
+/// of the shape.
+double normal_distance(const Shape& shape, const Vec3& x, const Perturbation& perturbation) {
+  const Vec3 slope{derivative(shape, x, 0), derivative(shape, x, 1), derivative(shape, x, 2)};
+  const double length = std::hypot(slope[0], slope[1], slope[2]);
+  const auto value = [&](double d) {
+    Vec3 y = x;
+    for (int i = 0; i < 3; ++i) y[i] += d * slope[i] / length;
+    return shape_function(shape, y, perturbation);
+  };
+  double low = -2 * perturbation.amplitude, high = -low;
+  EXPECT_LT(value(low), 0);
+  EXPECT_GT(value(high), 0);
+  for (int n = 0; n < 24; ++n) {
+    const double middle = (low + high) / 2;
+    (value(middle) < 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+std::vector<double> normal_distances(const Shape& shape, const Perturbation& perturbation) {
+  std::vector<double> distances;
+  for (const Vec3& x : surface_points(shape, 100))
+    distances.push_back(normal_distance(shape, x, perturbation));
+  return distances;
+}
+
+TEST(Perturbations, MoveTheSurfaceByAtMostTheirAmplitude) {
+  for (const Shape& shape : samples()) {
+    const double amplitude = 0.004;
+    const auto distances = normal_distances(shape, {.amplitude = amplitude, .seed = 3});
+    double sum_of_squares = 0;
+    for (const double d : distances) {
+      EXPECT_LT(std::abs(d), amplitude);
+      sum_of_squares += d * d;
+    }
+    const double rms = std::sqrt(sum_of_squares / distances.size());
+    EXPECT_GT(rms, 0.25 * amplitude);
+    EXPECT_LT(rms, 0.55 * amplitude);
+  }
+}
+
+TEST(Perturbations, AreReproducibleAndDifferForAnotherSeed) {
+  const Shape shape = oblate(0.7, 0.6);
+  const auto first = normal_distances(shape, {.amplitude = 0.01, .seed = 1});
+  EXPECT_EQ(first, normal_distances(shape, {.amplitude = 0.01, .seed = 1}));
+  const auto second = normal_distances(shape, {.amplitude = 0.01, .seed = 2});
+  double product = 0, square = 0;
+  for (std::size_t n = 0; n < first.size(); ++n)
+    product += first[n] * second[n], square += first[n] * first[n];
+  EXPECT_LT(std::abs(product / square), 0.5);
+}
+
+// Recorded once. With another compiler or library the last bits may differ, no more.
+TEST(Perturbations, AreTheSameOnEveryMachine) {
+  const Perturbation waves{.amplitude = 0.01, .seed = 1};
+  const Perturbation arms{.amplitude = 0.01, .seed = 1, .fold = 3};
+  const Vec3 x{0.3, -0.2, 0.1};
+  EXPECT_NEAR(shape_function(sphere(0.6), x, waves), -0.18038141382039, 1e-13);
+  EXPECT_NEAR(shape_function(sphere(0.6), x, arms), -0.18410322906678, 1e-13);
+}
+
+TEST(Perturbations, AreTheSameOnEveryGridAndWhereverTheShapeIs) {
+  const Perturbation perturbation{.amplitude = 0.01, .seed = 1};
+  const Shape shape = oblate(0.7, 0.6);
+  for (const int nodes : {32, 72}) {
+    const Grid grid = Grid::cube(nodes, 1);
+    const double width = std::max(16 * grid.spacing, 0.5);
+    const auto phi = initial_phi(shape, grid, perturbation);
+    for (std::size_t n = 0; n < phi.size(); n += 97)
+      ASSERT_NEAR(phi[n],
+                  width * std::tanh(shape_function(shape, grid.position(n), perturbation) / width),
+                  1e-14);
+  }
+  const auto in_place = normal_distances(shape, perturbation);
+  const auto elsewhere = normal_distances(moved(shape), perturbation);
+  for (std::size_t n = 0; n < in_place.size(); ++n) EXPECT_NEAR(in_place[n], elsewhere[n], 1e-8);
+}
+
+/// Amplitudes of cos(m theta + phase) around the rim of a shape, for m = 0 .. 12.
+std::vector<double> modes_of_the_rim(const Shape& shape, const Perturbation& perturbation) {
+  const int points = 120; // a multiple of every fold: what is beyond their reach adds to multiples
+  std::vector<double> cosines(13), sines(13), modes;
+  for (int n = 0; n < points; ++n) {
+    const double theta = 2 * pi * n / points, radius = largest_radius(shape);
+    const Vec3 x{radius * std::cos(theta), radius * std::sin(theta), 0};
+    const double distance = normal_distance(shape, x, perturbation);
+    for (int m = 0; m <= 12; ++m) {
+      cosines[m] += 2 * distance * std::cos(m * theta) / points;
+      sines[m] += 2 * distance * std::sin(m * theta) / points;
+    }
+  }
+  for (int m = 0; m <= 12; ++m) modes.push_back(std::hypot(cosines[m], sines[m]));
+  return modes;
+}
+
+TEST(Perturbations, WithAFoldHaveItsSymmetry) {
+  for (const int fold : {2, 3, 4, 5, 6}) {
+    const Perturbation perturbation{.amplitude = 0.004, .seed = 2, .fold = fold};
+    const auto modes = modes_of_the_rim(oblate(0.7, 0.6), perturbation);
+    EXPECT_NEAR(modes[fold], 0.75 * 0.004, 0.05 * 0.004);
+    for (int m = 1; m <= 12; ++m) {
+      if (m % fold != 0) {
+        EXPECT_LT(modes[m], 1e-8) << fold << ' ' << m;
+      }
+    }
+  }
+}
+
+TEST(Perturbations, WithAFoldTurnWithTheSeed) {
+  const Shape shape = oblate(0.7, 0.6);
+  const Vec3 x{0.7, 0, 0};
+  const double first = normal_distance(shape, x, {.amplitude = 0.01, .seed = 1, .fold = 4});
+  const double second = normal_distance(shape, x, {.amplitude = 0.01, .seed = 2, .fold = 4});
+  EXPECT_GT(std::abs(first - second), 1e-4);
+}
+
+TEST(StoredFrames, HaveNoAnalyticShape) {
+  const Shape frame{.kind = ShapeKind::frame, .file = "run"};
+  EXPECT_THROW(initial_phi(frame, Grid::cube(16, 1)), std::logic_error);
+  EXPECT_THROW(exact_area(frame), std::logic_error);
+  EXPECT_THROW(exact_volume(frame), std::logic_error);
 }
 
 } // namespace
