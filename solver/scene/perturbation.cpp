@@ -2,7 +2,6 @@
 
 #include "scene/shapes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>

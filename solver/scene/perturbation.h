@@ -1,7 +1,6 @@
 #pragma once
 #include "scene/scene.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace lamella {
@@ -13,8 +12,8 @@ double shortest_wavelength(const Perturbation& perturbation, const Shape& shape)
 /// the amplitude it is a u / sqrt(1 + |u|^2), thus shorter than a, where
 ///
 /// - without a fold, u is a sum of 32 plane waves of random directions, phases and polarisations,
-///   with wave numbers even between a third of the largest and the largest; |u| is 1 in the mean
-///   square, so that about 0.4 a of the displacement is normal to the surface, rms;
+///   with wave numbers spread evenly from a third of the largest to the largest; |u| is 1 in the
+///   mean square, so that about 0.4 a of the displacement is normal to the surface, rms;
 /// - with a fold m, u = (rho / R)^(m + 1) cos(m (theta - theta_0)) away from the shape's axis. rho
 ///   and theta are cylindrical coordinates about it, R the largest rho of the shape; theta_0
 ///   follows from the seed, so that the arms do not lie along the grid.
