@@ -1,8 +1,8 @@
 #include "render/energy_plot.h"
 
 #include "render/labels.h"
+#include "render/plot_page.h"
 #include "render/render.h"
-#include "render/sheet.h"
 #include "render/style.h"
 
 #include <fmt/format.h>
@@ -13,12 +13,9 @@
 namespace lamella::render {
 namespace {
 
-constexpr double page_width = 1400, page_height = 1050;
-constexpr double right = 1325, bottom = 180,
-                 top = 1005;    // of the plot; its left side follows from the labels
-constexpr double title_at = 70; ///< base line of the energy axis' title
+using namespace plot_page;
+
 constexpr double dot_spacing = 14;
-constexpr double tick = 16, minor_tick = 9;
 constexpr double start_gap = 110; ///< between t = 0 and the logarithmic part of the axis
 
 /// Time and energy, at the times that count.
@@ -87,22 +84,11 @@ public:
   int draw(Sheet& sheet) const { return logarithmic_ ? draw_log(sheet) : draw_linear(sheet); }
 
 private:
-  void draw_tick(Sheet& sheet, double x, double length) const {
-    sheet.line({{x, bottom}, {x, bottom - length}}, {style::hairline, style::ink});
-  }
-
-  void draw_label(Sheet& sheet, double x, const std::string& label) const {
-    sheet.text({x, bottom - tick - 14 - 0.73 * style::small_type}, label,
-               {style::small_type, style::ink, 0.5});
-  }
-
   int draw_linear(Sheet& sheet) const {
     sheet.line({{left_, bottom}, {right, bottom}}, {style::hairline, style::ink});
     const Ticks ticks = linear_ticks(range_.low, range_.high);
-    for (std::size_t n = 0; n < ticks.positions.size(); ++n) {
-      draw_tick(sheet, position(ticks.positions[n]), tick);
-      draw_label(sheet, position(ticks.positions[n]), ticks.labels[n]);
-    }
+    for (std::size_t n = 0; n < ticks.positions.size(); ++n)
+      draw_bottom_tick(sheet, position(ticks.positions[n]), ticks.labels[n]);
     return ticks.exponent;
   }
 
@@ -113,18 +99,10 @@ private:
     sheet.line({{cut + half, bottom}, {right, bottom}}, line);
     for (double x : {cut - half, cut + half})
       sheet.line({{x - slope, bottom - 2 * slope}, {x + slope, bottom + 2 * slope}}, line);
-    draw_tick(sheet, left_, tick);
-    draw_label(sheet, left_, "0");
-    const int first = int(std::floor(range_.low)), last = int(std::floor(range_.high));
-    const int every = (last - first) / 7 + 1; // labels stay apart
-    for (int exponent = first; exponent <= last; ++exponent)
-      for (int m = 1; m < 10; ++m) {
-        const double t = m * std::pow(10, exponent);
-        if (!shows(t) || std::log10(t) > range_.high) continue;
-        draw_tick(sheet, position(t), m == 1 ? tick : minor_tick);
-        if (m == 1 && (last - exponent) % every == 0)
-          draw_label(sheet, position(t), power_of_ten(exponent));
-      }
+    draw_bottom_tick(sheet, left_, "0");
+    const Ticks ticks = log_ticks(range_.low, range_.high);
+    for (std::size_t n = 0; n < ticks.positions.size(); ++n)
+      draw_bottom_tick(sheet, position(ticks.positions[n]), ticks.labels[n]);
     return 0;
   }
 
@@ -136,12 +114,8 @@ private:
 class EnergyAxis {
 public:
   explicit EnergyAxis(const Curve& curve)
-      : range_(energy_range(curve)), ticks_(linear_ticks(range_.low, range_.high)) {
-    std::size_t longest = 0;
-    for (const std::string& label : ticks_.labels) longest = std::max(longest, plain(label).size());
-    constexpr double digit = 0.64 * style::small_type; // widest
-    left_ = title_at + 80 + double(longest) * digit + tick;
-  }
+      : range_(energy_range(curve)), ticks_(linear_ticks(range_.low, range_.high)),
+        left_(left_side(ticks_.labels)) {}
 
   double left() const { return left_; }
   int exponent() const { return ticks_.exponent; }
@@ -150,14 +124,9 @@ public:
   }
 
   void draw(Sheet& sheet) const {
-    const Stroke line{style::hairline, style::ink};
-    sheet.line({{left_, bottom}, {left_, top}}, line);
-    for (std::size_t n = 0; n < ticks_.positions.size(); ++n) {
-      const double y = position(ticks_.positions[n]);
-      sheet.line({{left_ - tick, y}, {left_, y}}, line);
-      sheet.text({left_ - tick - 12, y - 0.36 * style::small_type}, ticks_.labels[n],
-                 {style::small_type, style::ink, 1});
-    }
+    sheet.line({{left_, bottom}, {left_, top}}, {style::hairline, style::ink});
+    for (std::size_t n = 0; n < ticks_.positions.size(); ++n)
+      draw_left_tick(sheet, left_, position(ticks_.positions[n]), ticks_.labels[n]);
   }
 
 private:
@@ -201,16 +170,11 @@ Picture draw_energy(Studio& studio, const std::vector<Measures>& history, double
   energy.draw(sheet);
   const int time_exponent = time.draw(sheet);
   draw_curve(sheet, curve, time, energy);
-  sheet.text({(energy.left() + right) / 2, 50},
-             fmt::format("time *t* / ({}*ζL*⁴/*κ*)", factor(time_exponent)),
-             {style::type_size, style::ink, 0.5});
-  TextStyle turned{style::type_size, style::ink, 0.5};
-  turned.upright = false;
-  const std::string unit =
+  const std::string energy_unit =
       energy.exponent() == 0 ? "*κ*" : fmt::format("({}*κ*)", factor(energy.exponent()));
-  sheet.text({title_at, (bottom + top) / 2}, fmt::format("energy *E* / {}", unit), turned);
-  const double pixels = width / page_width;
-  return studio.shoot(width, int(std::lround(page_height * pixels)), {}, sheet, pixels);
+  draw_titles(sheet, energy.left(), fmt::format("time *t* / ({}*ζL*⁴/*κ*)", factor(time_exponent)),
+              fmt::format("energy *E* / {}", energy_unit));
+  return print(studio, sheet, width);
 }
 
 } // namespace lamella::render

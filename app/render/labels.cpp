@@ -91,4 +91,22 @@ Ticks linear_ticks(double low, double high) {
   return ticks;
 }
 
+Ticks log_ticks(double low, double high) {
+  const int first = int(std::floor(low)), last = int(std::floor(high));
+  const int every = (last - first) / 7 + 1;
+  const bool short_range = high - low < 2.2;
+  Ticks ticks;
+  for (int exponent = first; exponent <= last; ++exponent)
+    for (int m = 1; m < 10; ++m) {
+      const double position = m * std::pow(10, exponent);
+      if (std::log10(position) < low || std::log10(position) > high) continue;
+      std::string label;
+      if (m == 1 && (last - exponent) % every == 0) label = power_of_ten(exponent);
+      if (short_range && (m == 1 || m == 2 || m == 5)) label = number(position, 1);
+      ticks.positions.push_back(position);
+      ticks.labels.push_back(label);
+    }
+  return ticks;
+}
+
 } // namespace lamella::render

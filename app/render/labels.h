@@ -14,14 +14,18 @@ std::string power_of_ten(int exponent);
 /// The text in ASCII, for messages and for fonts without Greek and superscripts: "1.6x10^-3".
 std::string plain(const std::string& text);
 
-/// Ticks of a linear axis.
+/// Ticks of an axis.
 struct Ticks {
   std::vector<double> positions;
-  std::vector<std::string> labels; ///< of position / 10^exponent
+  std::vector<std::string> labels; ///< of position / 10^exponent; none: a minor tick
   int exponent = 0;                ///< 0 unless the labels would be very small or large
 };
 
 /// Three to eight round positions within [low, high], low < high.
 Ticks linear_ticks(double low, double high);
+
+/// 1, 2 ... 9 times the powers of ten within [10^low, 10^high]. Powers are labelled as far as labels
+/// stay apart, 2 and 5 times them too where there are hardly more than two.
+Ticks log_ticks(double low, double high);
 
 } // namespace lamella::render

@@ -2,6 +2,7 @@
 
 #include "render/energy_plot.h"
 #include "render/figure.h"
+#include "render/tradeoff_plot.h"
 
 #include <cmath>
 
@@ -21,6 +22,12 @@ std::vector<std::filesystem::path> render_run(const Frame& start, const Frame& e
             draw_figure(studio, extract_surface(start), extract_surface(end), options.width));
   write_png(files[1], draw_energy(studio, history, options.bending_modulus, options.width * 2 / 3));
   return files;
+}
+
+void render_tradeoff(std::span<const Trade> trades, const std::filesystem::path& file,
+                     const RenderOptions& options) {
+  render::Studio studio(options.backend);
+  render::write_png(file, render::draw_tradeoff(studio, trades, options.width * 2 / 3));
 }
 
 } // namespace lamella

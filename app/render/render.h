@@ -2,7 +2,9 @@
 #include "dynamics/measures.h"
 #include "store/frame.h"
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,5 +34,18 @@ std::vector<std::filesystem::path> render_run(const Frame& start, const Frame& e
                                               const std::vector<Measures>& history,
                                               const std::filesystem::path& folder,
                                               const RenderOptions& options = {});
+
+/// What a run cost and how wrong it was.
+struct Trade {
+  std::array<int, 3> nodes{};
+  double seconds = 0, error = 0; ///< wall time; relative error
+  bool on_front = false;         ///< no other one is both faster and more accurate
+  std::string name;              ///< of a preset, or nothing
+};
+
+/// Draw trades as a picture of two thirds of the options' width: error against wall time. Throws as
+/// render_run does.
+void render_tradeoff(std::span<const Trade> trades, const std::filesystem::path& file,
+                     const RenderOptions& options = {});
 
 } // namespace lamella

@@ -10,6 +10,7 @@
 #include "render/studio.h"
 #include "render/style.h"
 #include "render/surface.h"
+#include "render/tradeoff_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -217,6 +218,21 @@ TEST_F(Render, plots_one_row_and_steady_energies_but_not_nothing) {
   EXPECT_THAT(error_of([&] { draw_energy(studio, {}, 1, 700); }), HasSubstr("nothing to plot"));
 }
 
+TEST_F(Render, plots_error_against_time) {
+  const std::vector<Trade> trades{{{32, 32, 32}, 0.2, 3e-3, true, ""},
+                                  {{64, 64, 64}, 1.5, 1e-3, true, "standard"},
+                                  {{64, 64, 64}, 3, 2e-3, false, ""},
+                                  {{64, 64, 64}, 4, std::nan(""), false, ""}};
+  Studio studio("auto");
+  const Picture plot = draw_tradeoff(studio, trades, 700);
+  EXPECT_EQ(plot.height, 525);
+  const auto count = [&](Color color) { return count_pixels(plot, color); };
+  EXPECT_GT(count({244, 166, 120}), 100) << "the coarse grid's dot and label";
+  EXPECT_GT(count({96, 20, 44}), 200) << "the fine grid's dots, line and label";
+  EXPECT_THAT(error_of([&] { draw_tradeoff(studio, std::span(trades).last(1), 700); }),
+              HasSubstr("nothing to plot"));
+}
+
 TEST_F(Render, writes_all_pictures_of_a_run) {
   RenderOptions options;
   options.width = 600;
@@ -261,6 +277,17 @@ TEST(Labels, ticks_are_round) {
   EXPECT_THAT(times.labels, ElementsAre("0", "0.5", "1.0", "1.5"));
   EXPECT_EQ(times.exponent, -3);
   EXPECT_THAT(linear_ticks(-2, 1).labels, ElementsAre("−2", "−1", "0", "1"));
+}
+
+TEST(Labels, logarithmic_ticks_have_labels_enough) {
+  const auto labels = [](double low, double high) {
+    std::vector<std::string> named = log_ticks(low, high).labels;
+    std::erase(named, "");
+    return named;
+  };
+  EXPECT_THAT(labels(-0.4, 1.1), ElementsAre("0.5", "1", "2", "5", "10"));
+  EXPECT_THAT(labels(-5.1, -1.9), ElementsAre("10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"));
+  EXPECT_EQ(log_ticks(0, 1).positions.size(), 10u);
 }
 
 } // namespace
