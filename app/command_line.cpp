@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "kernels/kernels.h"
+#include "scene/keys.h"
 #include "scene/nearest.h"
 #include "usage_error.h"
 
@@ -26,7 +27,8 @@ constexpr const char* run_notes = R"(Examples:
   lamella run fig3_oblate -o oblate              a built-in scene
   lamella scenes fig3_oblate > vesicle.toml      a scene to start your own from
   lamella run vesicle.toml                       into the folder "vesicle"
-  lamella run vesicle.toml -o fine --set grid.nodes=96 --set numerics.tolerance=0.002
+  lamella run vesicle.toml -o fine --preset fine
+  lamella run vesicle.toml --set grid.nodes=96 --set numerics.tolerance=0.002
 
 A name without folder and ".toml" is first looked for among the built-in scenes; ./NAME is always a
 file. The output folder receives figure.png, energy.png, history.csv, frames/, scene.toml and
@@ -43,6 +45,16 @@ constexpr const char* scenes_notes = R"(Examples:
   lamella scenes                              the list
   lamella scenes fig3_oblate > vesicle.toml   a scene to start your own from)";
 
+constexpr const char* tradeoff_notes = R"(Examples:
+  lamella tradeoff fig3_oblate                      which grid and tolerance for which accuracy
+  lamella tradeoff fig3_oblate --presets            the three presets alone
+  lamella tradeoff vesicle.toml --grids 48,64,96 --tolerances 0.02,0.005 --repeats 3
+  lamella tradeoff vesicle.toml --reference fine/history.csv
+
+Runs are compared with a table (--reference), the exact solution that comes with the scene, or a run
+finer than all others. The output folder receives tradeoff.csv, tradeoff.md and tradeoff.png: wall time
+against error, with the Pareto front. docs/tradeoff.md says more.)";
+
 void add_backend(CLI::App& command, std::string& backend) {
   command.add_option("--backend", backend, "How pictures are drawn: auto, osmesa, egl or x")
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "x"}).description(""))
@@ -50,22 +62,38 @@ void add_backend(CLI::App& command, std::string& backend) {
       ->type_name("NAME");
 }
 
-void add_run(CLI::App& app, RunOptions& options) {
-  CLI::App& run = *app.add_subcommand("run", "Run a scene; numbers and pictures go to a folder");
-  run.footer(run_notes);
-  run.add_option("scene", options.scene, "Scene file (.toml), or the name of a built-in scene")
+void add_scene(CLI::App& command, std::string& scene, std::vector<std::string>& set) {
+  command.add_option("scene", scene, "Scene file (.toml), or the name of a built-in scene")
       ->required()
       ->type_name("");
-  run.add_option("-o,--output", options.folder, "Output folder (default: the scene's name)")
-      ->check([](const std::string& name) { return name.empty() ? "the name is empty" : ""; })
-      ->type_name("FOLDER");
-  run.add_option("--threads", options.threads, "Threads (default: all cores)")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  run.add_option("--set", options.set, "Change a value of the scene; may be repeated")
+  command.add_option("--set", set, "Change a value of the scene; may be repeated")
       ->expected(1)
       ->take_all()
       ->type_name("SECTION.KEY=VALUE");
+}
+
+void add_output(CLI::App& command, std::filesystem::path& folder, const char* description) {
+  command.add_option("-o,--output", folder, description)
+      ->check([](const std::string& name) { return name.empty() ? "the name is empty" : ""; })
+      ->type_name("FOLDER");
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Threads (default: all cores)")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+}
+
+void add_run(CLI::App& app, RunOptions& options) {
+  CLI::App& run = *app.add_subcommand("run", "Run a scene; numbers and pictures go to a folder");
+  run.footer(run_notes);
+  add_scene(run, options.scene, options.set);
+  run.add_option("--preset", options.preset,
+                 "draft, standard or fine: grid and tolerance relative to the scene's own")
+      ->capture_default_str()
+      ->type_name("NAME");
+  add_output(run, options.folder, "Output folder (default: the scene's name)");
+  add_threads(run, options.threads);
   run.add_flag("--force", options.force, "Replace an earlier run in the output folder");
   run.add_flag("--no-pictures", options.no_pictures, "Numbers only");
   add_backend(run, options.backend);
@@ -85,6 +113,54 @@ void add_scenes(CLI::App& app, std::string& name) {
   CLI::App& scenes = *app.add_subcommand("scenes", "List the built-in scenes, or print one");
   scenes.footer(scenes_notes);
   scenes.add_option("name", name, "The scene to print")->type_name("");
+}
+
+/// A value of a list for a key of the scene.
+CLI::Validator allowed(std::string_view section, std::string_view name) {
+  const Key* key = find_key(section, name);
+  return {[key](const std::string& text) {
+            double value = 0;
+            const bool good = CLI::detail::lexical_cast(text, value) && key->range.contains(value);
+            return good ? "" : fmt::format("{}; allowed: {}", text, allowed_text(*key));
+          },
+          ""};
+}
+
+void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
+  CLI::App& tradeoff =
+      *app.add_subcommand("tradeoff", "Measure accuracy against time over grids and tolerances");
+  tradeoff.footer(tradeoff_notes);
+  add_scene(tradeoff, options.scene, options.set);
+  add_output(tradeoff, options.folder,
+             "Output folder (default: the scene's name and \"-tradeoff\")");
+  CLI::Option* grids =
+      tradeoff
+          .add_option("--grids", options.range.grids,
+                      "Nodes along the shortest axis (default: 1/2, 3/4, 1, 3/2 of the scene's)")
+          ->delimiter(',')
+          ->check(allowed("grid", "nodes"))
+          ->type_name("N,...");
+  CLI::Option* tolerances =
+      tradeoff
+          .add_option("--tolerances", options.range.tolerances,
+                      "Of the time steps (default: 4, 1, 1/4 times the scene's)")
+          ->delimiter(',')
+          ->check(allowed("numerics", "tolerance"))
+          ->type_name("X,...");
+  tradeoff.add_flag("--presets", options.range.presets_only, "Draft, standard and fine alone")
+      ->excludes(grids)
+      ->excludes(tolerances);
+  tradeoff
+      .add_option("--reference", options.reference,
+                  "Table to compare with, such as the history.csv of a finer run")
+      ->type_name("FILE");
+  tradeoff.add_option("--repeats", options.repeats, "Runs of each kind; the fastest counts")
+      ->check(CLI::Range(1, 100).description(""))
+      ->capture_default_str()
+      ->type_name("N");
+  add_threads(tradeoff, options.threads);
+  tradeoff.add_flag("--force", options.force, "Replace an earlier sweep in the output folder");
+  add_backend(tradeoff, options.backend);
 }
 
 /// What to say about an argument that no command takes.
@@ -130,9 +206,11 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   RunOptions run_options;
   RenderCommandOptions render_options;
   std::string scene;
+  TradeoffOptions tradeoff_options;
   add_run(app, run_options);
   add_render(app, render_options);
   add_scenes(app, scene);
+  add_tradeoff(app, tradeoff_options);
 
   if (argc > 1) refuse_unknown_command(app, argv[1]);
   try {
@@ -146,6 +224,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   }
   if (app.got_subcommand("run")) return [=] { return run(run_options); };
   if (app.got_subcommand("render")) return [=] { return render(render_options); };
+  if (app.got_subcommand("tradeoff")) return [=] { return tradeoff(tradeoff_options); };
   return [=] { return show_scenes(scene); };
 }
 

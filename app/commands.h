@@ -1,4 +1,6 @@
 #pragma once
+#include "tradeoff/sweep.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@ struct RunOptions {
   std::string scene;            ///< a file, or the name of a built-in scene
   std::filesystem::path folder; ///< empty: the scene's name in the current folder
   std::vector<std::string> set; ///< section.key=value
+  std::string preset = "standard";
   std::string backend = "auto"; ///< of the pictures
   int threads = 0;              ///< 0: all
   bool force = false;           ///< replace an earlier run in the folder
@@ -34,5 +37,22 @@ int render(const RenderCommandOptions& options);
 
 /// Lists the built-in scenes, or prints one. Returns an ExitCode; throws SceneError.
 int show_scenes(const std::string& name);
+
+struct TradeoffOptions {
+  std::string scene;            ///< a file, or the name of a built-in scene
+  std::filesystem::path folder; ///< empty: the scene's name and "-tradeoff" in the current folder
+  std::filesystem::path reference; ///< empty: the built-in one, or else a finer run
+  std::vector<std::string> set;    ///< section.key=value
+  SweepRange range;
+  std::string backend = "auto"; ///< of the picture
+  int repeats = 1;              ///< runs of each kind; the fastest counts
+  int threads = 0;              ///< 0: all
+  bool force = false;           ///< replace an earlier sweep in the folder
+};
+
+/// Runs a scene on several grids and with several tolerances, and fills the folder with a table and
+/// a picture of wall time against error. Returns an ExitCode; throws UsageError, SceneError,
+/// StoreError.
+int tradeoff(const TradeoffOptions& options);
 
 } // namespace lamella

@@ -8,6 +8,7 @@
 #include "progress.h"
 #include "render/render.h"
 #include "run_folder.h"
+#include "scene/preset.h"
 #include "summary.h"
 
 #include <chrono>
@@ -116,7 +117,9 @@ std::string contents(const RunFolder& folder, bool pictures) {
 } // namespace
 
 int run(const RunOptions& options) {
-  const Scene scene = find_scene(options.scene, options.set);
+  const Scene scene =
+      at_preset(find_preset(options.preset), find_scene(options.scene, options.set));
+  validate(scene);
   const fs::path path = options.folder.empty() ? fs::path(scene.name) : options.folder;
   refuse_unsuitable(path, options.force);
   set_thread_count(options.threads);
