@@ -5,25 +5,21 @@
 #include "find_scene.h"
 #include "interrupt.h"
 #include "parallel.h"
-#include "progress.h"
 #include "render/render.h"
 #include "store/atomic_file.h"
+#include "sweep_progress.h"
 #include "tradeoff/report.h"
 #include "tradeoff/sweep.h"
 #include "usage_error.h"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace lamella {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr const char *table_file = "tradeoff.csv", *page_file = "tradeoff.md",
                      *plot_file = "tradeoff.png";
@@ -33,57 +29,6 @@ void put(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   std::fflush(stdout);
 }
-
-/// A line on the terminal about the sweep as a whole; silent where standard error is not one.
-class SweepProgress {
-public:
-  SweepProgress(std::span<const Scene> scenes, int repeats)
-      : runs_(scenes.size()), repeats_(repeats), terminal_(isatty(STDERR_FILENO)) {
-    for (const Scene& scene : scenes) cost_left_ += repeats * expected_cost(scene);
-  }
-
-  void begin(const Scene& scene) {
-    scene_ = &scene;
-    begin_ = Clock::now();
-    run_++;
-  }
-
-  /// The run in progress has come to a time.
-  void update(double time) {
-    if (!terminal_ || Clock::now() - shown_ < std::chrono::milliseconds(200)) return;
-    shown_ = Clock::now();
-    const std::string left =
-        cost_done_ == 0
-            ? ""
-            : fmt::format("   {} left",
-                          duration_text(std::max(0., seconds_done_ / cost_done_ * cost_left_ -
-                                                         seconds_since_begin())));
-    std::fprintf(stderr, "\r%-78s",
-                 fmt::format("run {} of {}: {}, tolerance {:g}, t = {:.1e} of {:.1e}{}", run_,
-                             runs_ * repeats_, grid_text(*scene_), scene_->numerics.tolerance, time,
-                             scene_->end_time, left)
-                     .c_str());
-  }
-
-  void end() {
-    seconds_done_ += seconds_since_begin();
-    cost_done_ += expected_cost(*scene_);
-    cost_left_ -= expected_cost(*scene_);
-    if (terminal_) std::fprintf(stderr, "\r%78s\r", "");
-  }
-
-private:
-  double seconds_since_begin() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
-
-  std::size_t runs_, run_ = 0;
-  int repeats_;
-  bool terminal_;
-  const Scene* scene_ = nullptr;
-  Clock::time_point begin_, shown_;
-  double cost_done_ = 0, cost_left_ = 0, seconds_done_ = 0;
-};
 
 /// The fastest of several runs; all have the same course.
 Trial fastest(const Scene& scene, int repeats, SweepProgress& progress) {
@@ -114,28 +59,24 @@ Reference finest_run(std::span<const Scene> scenes) {
   return {trial.history, name};
 }
 
-/// Given, known of a built-in scene, or made.
-Reference find_reference(const TradeoffOptions& options, const Scene& scene,
-                         std::span<const Scene> scenes) {
-  if (options.reference.empty()) {
-    const std::optional<Reference> exact = builtin_reference(scene);
-    return exact ? *exact : finest_run(scenes);
-  }
-  Reference reference = read_reference(options.reference);
+/// Given, or known of a built-in scene.
+std::optional<Reference> known_reference(const fs::path& given, const Scene& scene) {
+  if (given.empty()) return builtin_reference(scene);
+  Reference reference = read_reference(given);
   if (!reference.covers(scene.end_time))
-    throw UsageError(fmt::format("{}: ends before the run, whose end_time is {:g}",
-                                 options.reference.string(), scene.end_time));
+    throw UsageError(fmt::format("{}: ends before the run, whose end_time is {:g}", given.string(),
+                                 scene.end_time));
   return reference;
 }
 
 void refuse_unsuitable(const fs::path& folder, bool force) {
+  std::error_code error;
   for (const char* file : {table_file, page_file, plot_file})
-    if (!force && fs::exists(folder / file))
+    if (!force && fs::exists(folder / file, error))
       throw UsageError(
           fmt::format("{}: the folder holds a sweep; choose another with -o, or replace "
                       "it with --force",
                       folder.string()));
-  std::error_code error;
   fs::create_directories(folder, error);
   if (error)
     throw StoreError(
@@ -185,17 +126,18 @@ int tradeoff(const TradeoffOptions& options) {
   const fs::path folder =
       options.folder.empty() ? fs::path(scene.name + "-tradeoff") : options.folder;
   const std::vector<Scene> scenes = sweep(scene, options.range);
+  std::optional<Reference> reference = known_reference(options.reference, scene);
   refuse_unsuitable(folder, options.force);
   set_thread_count(options.threads);
   watch_for_interrupt();
-  const Reference reference = find_reference(options, scene, scenes);
+  if (!reference) reference = finest_run(scenes);
   put(fmt::format("{} to t = {:g}, compared with {}\n", scene.name, scene.end_time,
-                  reference.source()));
+                  reference->source()));
 
-  const std::vector<Trial> trials = carry_out(scene, scenes, reference, folder, options.repeats);
+  const std::vector<Trial> trials = carry_out(scene, scenes, *reference, folder, options.repeats);
   if (trials.empty()) return interrupted;
   write_text_atomically(folder / page_file,
-                        tradeoff_markdown(scene, reference, trials, options.repeats));
+                        tradeoff_markdown(scene, *reference, trials, options.repeats));
   const int pictures = draw(trials, folder, options.backend);
   put(fmt::format("In {}: {}, {}{}\n", folder.string(), table_file, page_file,
                   pictures == success ? fmt::format(", {}", plot_file) : ""));

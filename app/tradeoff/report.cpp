@@ -65,10 +65,13 @@ std::string tradeoff_csv(std::span<const Trial> trials) {
     const auto& [x, y, z] = trial.scene.nodes;
     csv += fmt::format("{},{},{},{:g},{},{},{:.6g}", x, y, z, trial.scene.numerics.tolerance,
                        trial.preset, trial.steps(), trial.seconds);
-    const Measures end = trial.history.empty() ? Measures{} : trial.history.back();
+    const auto at_end = [&](double Measures::*number) {
+      return trial.history.empty() ? NAN : trial.history.back().*number;
+    };
     const Errors& e = trial.errors;
     for (const double value :
-         {end.energy, end.P, end.sigma, e.course, e.energy, e.P, e.sigma, e.largest()})
+         {at_end(&Measures::energy), at_end(&Measures::P), at_end(&Measures::sigma), e.course,
+          e.energy, e.P, e.sigma, e.largest()})
       csv += ',' + cell(value);
     csv += fmt::format(",{:d},{}\n", trial.on_front, quoted_cell(trial.stopped));
   }

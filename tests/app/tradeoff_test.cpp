@@ -18,6 +18,7 @@ namespace lamella {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
@@ -192,7 +193,7 @@ TEST(Sweep, goes_on_after_a_run_that_cannot) {
   const Trial trial = run_trial(coarse, [](double) { return true; });
   EXPECT_THAT(trial.stopped, HasSubstr("2.4 grid spacings from the side"));
   EXPECT_THAT(table_row(trial), HasSubstr("stopped: "));
-  EXPECT_EQ(trial.steps(), 0u);
+  EXPECT_THAT(tradeoff_csv(std::vector{trial}), HasSubstr(",,,,,,,,,0,\"[shape] semi_axis: "));
 }
 
 // --------------------------------------------------------------------------------------- command
@@ -259,6 +260,30 @@ TEST_F(Cli, replaces_a_sweep_only_when_told) {
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, MatchesRegex("lamella: out: the folder holds a sweep[^\n]+--force\n"));
   EXPECT_EQ(call(small_sweep({"--force"})).code, 0);
+}
+
+TEST_F(Cli, follows_a_sweep_on_a_terminal) {
+  if (!Program::has_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
+  const std::string all = Program::on_terminal(100, small_sweep(), setting_);
+  EXPECT_THAT(all, HasSubstr("\rrun 1 of 2   32^3, tolerance 0.02   t = 0.0e+00 of 2.0e-05 "));
+  EXPECT_THAT(all, ContainsRegex("\rrun 2 of 2   [0-9.]+ s left   40\\^3, "));
+  EXPECT_THAT(all, ContainsRegex("\r +\r40\\^3 ")) << "the line is gone before the table goes on";
+}
+
+TEST_F(Cli, names_the_reference_that_is_no_use) {
+  write(work() / "short.csv", "t,energy\n0,60\n1e-6,59\n");
+  write(work() / "other.csv", "time,temperature\n0,60\n");
+  const std::vector<std::tuple<std::string, int, const char*>> useless{
+      {"away.csv", 4, "away.csv: cannot be read"},
+      {"short.csv", 2, "short.csv: ends before the run, whose end_time is 2e-05"},
+      {"other.csv", 2, "other.csv: no reference"},
+  };
+  for (const auto& [file, code, message] : useless) {
+    const Result result = call(small_sweep({"--reference", file}));
+    EXPECT_EQ(result.code, code);
+    EXPECT_THAT(result.err, AllOf(MatchesRegex("lamella: [^\n]+\n"), HasSubstr(message)));
+    EXPECT_FALSE(fs::exists(work() / "out"));
+  }
 }
 
 TEST_F(Cli, runs_a_preset) {
