@@ -31,8 +31,8 @@ constexpr const char* run_notes = R"(Examples:
   lamella run vesicle.toml --set grid.nodes=96 --set numerics.tolerance=0.002
 
 A name without folder and ".toml" is first looked for among the built-in scenes; ./NAME is always a
-file. The output folder receives figure.png, energy.png, history.csv, frames/, scene.toml and
-summary.txt. Ctrl-C ends a run early and stores what there is.
+file. The output folder receives figure.png, energy.png, history.csv, events.csv, frames/,
+scene.toml and summary.txt. Ctrl-C ends a run early and stores what there is.
 
 Exit codes: 0 done, 2 bad scene or command line (nothing written), 3 the run could not go on (stored
 up to there), 4 a file could not be written, 5 no pictures, 130 interrupted.)";

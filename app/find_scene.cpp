@@ -1,6 +1,7 @@
 #include "find_scene.h"
 
 #include "error.h"
+#include "run_folder.h"
 #include "scene/builtin.h"
 #include "scene/nearest.h"
 #include "scene/scene_toml.h"
@@ -53,9 +54,8 @@ bool is_there(const fs::path& file) {
                                               : suggestion(word, names)));
 }
 
-} // namespace
-
-Scene find_scene(const std::string& wanted, std::span<const std::string> overrides) {
+/// The scene as it is written.
+Scene scene_of(const std::string& wanted, std::span<const std::string> overrides) {
   if (is_builtin(wanted)) return builtin_scene(wanted, overrides);
   const fs::path file = wanted;
   std::error_code error;
@@ -66,6 +66,40 @@ Scene find_scene(const std::string& wanted, std::span<const std::string> overrid
   if (status.type() != fs::file_type::not_found) return read_scene(file, overrides);
   if (file.has_parent_path() || file.extension() == ".toml") refuse_missing_file(file);
   refuse_word(wanted);
+}
+
+/// Where relative paths of a scene count from.
+fs::path home_of(const std::string& wanted, std::span<const std::string> overrides) {
+  const bool is_set = std::ranges::any_of(
+      overrides, [](const std::string& text) { return text.starts_with("shape.file"); });
+  return is_set || is_builtin(wanted) ? fs::path() : fs::path(wanted).parent_path();
+}
+
+[[noreturn]] void refuse_start(const Scene& scene, const fs::path& file) {
+  throw SceneError(fmt::format(
+      "{}: [shape] file = \"{}\": {}{}", scene.name, scene.shape.file,
+      is_there(file) ? file.string() + " is neither a frame nor the folder of a run that has ended"
+                     : "no such frame, run or built-in scene",
+      is_there(file) ? "" : suggestion(scene.shape.file, builtin_names())));
+}
+
+/// What shape.file is to be, see find_scene().
+std::string find_start(const Scene& scene, const fs::path& home) {
+  const fs::path file = home / scene.shape.file;
+  std::error_code ignored;
+  if (fs::is_regular_file(file, ignored)) return fs::absolute(file).string();
+  if (const auto frame = end_of_run(file)) return fs::absolute(*frame).string();
+  if (is_builtin(scene.shape.file)) return scene.shape.file;
+  refuse_start(scene, file);
+}
+
+} // namespace
+
+Scene find_scene(const std::string& wanted, std::span<const std::string> overrides) {
+  Scene scene = scene_of(wanted, overrides);
+  if (scene.shape.kind == ShapeKind::frame)
+    scene.shape.file = find_start(scene, home_of(wanted, overrides));
+  return scene;
 }
 
 } // namespace lamella

@@ -26,14 +26,20 @@ std::size_t line_width() {
 
 } // namespace
 
-Progress::Progress(double end_time, double longest_step)
-    : end_time_(end_time), longest_step_(longest_step), terminal_(isatty(STDERR_FILENO)),
-      start_(Clock::now()), last_(start_) {}
+Progress::Progress(const Scene& scene)
+    : end_time_(scene.end_time),
+      longest_step_(scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step
+                                                     : scene.end_time / 16),
+      spacing_(scene.grid().spacing), terminal_(isatty(STDERR_FILENO)), start_(Clock::now()),
+      last_(start_) {}
 
-Progress::~Progress() {
-  if (shown_ == 0) return;
-  show("");
-  std::fputs("\r", stderr);
+Progress::~Progress() { clear(); }
+
+void Progress::tell(std::span<const Event> all) {
+  for (; told_ < all.size(); told_++) {
+    clear();
+    say(to_text(all[told_], spacing_) + '\n');
+  }
 }
 
 /// Relaxation slows down as it goes on and steps grow in proportion to time, up to the longest
@@ -67,6 +73,17 @@ void Progress::show(const std::string& line) {
   std::fputs(padded.c_str(), stderr);
   std::fflush(stderr);
   shown_ = line.size();
+}
+
+void Progress::clear() {
+  if (shown_ == 0) return;
+  show("");
+  std::fputs("\r", stderr);
+}
+
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
 }
 
 std::string duration_text(double seconds) {

@@ -1,32 +1,44 @@
 #pragma once
+#include "dynamics/event.h"
 #include "dynamics/measures.h"
+#include "scene/scene.h"
 
 #include <chrono>
+#include <span>
 #include <string>
 
 namespace lamella {
 
 /// One line on the terminal that follows a run; silent when standard error is not a terminal. As
-/// much as fits the terminal's width, and nothing but text, spaces and carriage returns.
+/// much as fits the terminal's width, and nothing but text, spaces and carriage returns. Events are
+/// said above it.
 class Progress {
 public:
-  Progress(double end_time, double longest_step);
+  explicit Progress(const Scene& scene);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void update(const Measures& measures, double next_dt);
+  /// Says those of all events so far that have not been said yet.
+  void tell(std::span<const Event> all);
 
 private:
   double steps_left(double time, double dt) const;
   void show(const std::string& line);
+  void clear();
 
-  double end_time_, longest_step_;
+  double end_time_, longest_step_, spacing_;
   bool terminal_;
   long steps_ = 0;
+  std::size_t told_ = 0;
   std::size_t shown_ = 0; ///< characters on the line
   std::chrono::steady_clock::time_point start_, last_;
 };
+
+/// To standard output. Neither a full disk nor a reader that went away may end a run, so nothing is
+/// thrown.
+void say(const std::string& text);
 
 /// "3.2 s", "4 min 10 s", "2 h 5 min".
 std::string duration_text(double seconds);

@@ -17,14 +17,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* scene_file = "scene.toml";
+constexpr const char* start_file = "start.hdf";
 constexpr const char* history_file = "history.csv";
+constexpr const char* events_file = "events.csv";
 constexpr const char* summary_file = "summary.txt";
 constexpr const char* frames_folder = "frames";
 constexpr const char* series_file = "frames.hdf.series";
 
 // The names of what a run writes, as regular expressions.
 constexpr const char* own_files =
-    R"(scene\.toml|history\.csv|summary\.txt|figure\.png|energy\.png)";
+    R"(scene\.toml|start\.hdf|history\.csv|events\.csv|summary\.txt|figure\.png|energy\.png)";
 constexpr const char* frame_names = R"(frame_\d{4,}\.hdf)";
 constexpr const char* own_frames = R"(frame_\d{4,}\.hdf|frames\.hdf\.series)";
 
@@ -104,12 +106,20 @@ void refuse_unsuitable(const fs::path& folder, bool force) {
 }
 
 RunFolder::RunFolder(const fs::path& folder, const Scene& scene) : folder_(folder) {
+  Scene stored = scene;
+  std::optional<Frame> start; // read before anything is removed: it may be in this very folder
+  if (scene.shape.kind == ShapeKind::frame) {
+    start = read_frame(scene.shape.file);
+    stored.shape.file = start_file;
+  }
   or_store_error(folder, "cannot be used as output folder", [&] {
     fs::create_directories(folder);
     erase_run(folder);
     try {
-      write_text_atomically(folder / scene_file, to_toml(scene));
+      write_text_atomically(folder / scene_file, to_toml(stored));
+      if (start) write_frame(folder / start_file, *start);
       history_.emplace(folder / history_file);
+      events_.emplace(folder / events_file);
       fs::create_directories(folder / frames_folder);
     } catch (...) {
       erase_run(folder);
@@ -125,8 +135,21 @@ void RunFolder::add(const Frame& frame) {
   write_series(folder_ / frames_folder / series_file, series_);
 }
 
+void RunFolder::add_new(std::span<const Event> all) {
+  for (; event_count_ < all.size(); event_count_++) events_->add(all[event_count_]);
+}
+
 void RunFolder::write_summary(const std::string& text) const {
   write_text_atomically(folder_ / summary_file, text);
+}
+
+std::optional<fs::path> end_of_run(const fs::path& folder) {
+  return or_store_error(folder, "cannot be read", [&]() -> std::optional<fs::path> {
+    if (!holds_run(folder) || !fs::exists(folder / summary_file)) return {};
+    const std::vector<fs::path> files = stored_frames(folder);
+    if (files.empty()) return {};
+    return files.back();
+  });
 }
 
 StoredRun read_run(const fs::path& folder) {
@@ -136,7 +159,7 @@ StoredRun read_run(const fs::path& folder) {
     const std::vector<fs::path> files = stored_frames(folder);
     if (files.empty()) throw UsageError(folder.string() + ": the run in it has no frames");
     return {read_scene(folder / scene_file), read_history(folder / history_file),
-            read_frame(files.front()), read_frame(files.back())};
+            read_events(folder / events_file), read_frame(files.front()), read_frame(files.back())};
   });
 }
 

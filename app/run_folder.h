@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,9 @@ void refuse_unsuitable(const std::filesystem::path& folder, bool force);
 
 /// What a run leaves behind, and how it is laid out:
 ///   scene.toml              the scene as run, complete
+///   start.hdf               the state it starts from, where the scene takes a stored one
 ///   history.csv             one row a step
+///   events.csv              one row an event
 ///   frames/frame_0000.hdf   stored states, frames/frames.hdf.series for ParaView
 ///   figure.png, energy.png  pictures
 ///   summary.txt             the outcome in words
@@ -29,6 +32,8 @@ public:
 
   void add(const Measures& measures) { history_->add(measures); }
   void add(const Frame& frame);
+  /// Adds those of all events so far that are not there yet.
+  void add_new(std::span<const Event> all);
   void write_summary(const std::string& text) const;
 
   const std::filesystem::path& path() const { return folder_; }
@@ -38,13 +43,20 @@ public:
 private:
   std::filesystem::path folder_;
   std::optional<HistoryWriter> history_;
+  std::optional<EventWriter> events_;
+  std::size_t event_count_ = 0;
   std::vector<SeriesEntry> series_;
 };
 
-/// A stored run, as far as pictures need it.
+/// The last frame of a run that has ended, also early; nothing for any other folder. Throws
+/// StoreError for one that cannot be read.
+std::optional<std::filesystem::path> end_of_run(const std::filesystem::path& folder);
+
+/// A stored run, with its first and last frame.
 struct StoredRun {
   Scene scene;
   std::vector<Measures> history;
+  std::vector<Event> events;
   Frame start, end;
 };
 

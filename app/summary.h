@@ -1,8 +1,10 @@
 #pragma once
+#include "dynamics/event.h"
 #include "dynamics/measures.h"
 #include "exit_code.h"
 #include "scene/scene.h"
 
+#include <span>
 #include <string>
 
 namespace lamella {
@@ -10,7 +12,7 @@ namespace lamella {
 /// Why the time loop ended.
 struct Outcome {
   ExitCode code = success;
-  std::string reason; ///< of a run that could not go on
+  std::string reason; ///< of a run that ended before its time, other than by an interrupt
 };
 
 /// What is remembered of a run for its summary.
@@ -33,11 +35,15 @@ private:
   double area_drift_, volume_drift_;
 };
 
-/// "reached the end", "was interrupted at t = 0.0003", "stopped at t = 0.0003: the membrane ...".
+/// "reached the end, t = 0.001", "settled at t = 0.0003", "stopped at t = 0.0003: the membrane
+/// ...".
 std::string words_for(const Outcome& outcome, double time);
 
+/// What events say about the accuracy of a run; empty where the grid resolved all.
+std::string caution(std::span<const Event> events);
+
 /// The text of summary.txt.
-std::string summary(const Scene& scene, const Course& course, const Outcome& outcome,
-                    double seconds);
+std::string summary(const Scene& scene, const Course& course, std::span<const Event> events,
+                    const Outcome& outcome, double seconds);
 
 } // namespace lamella

@@ -16,6 +16,9 @@ namespace lamella {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
+using testing::ContainsRegex;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
@@ -46,7 +49,7 @@ Arguments slow(const std::string& end_time, const Arguments& more = {}) {
                more);
 }
 
-/// A run whose buds soon get thinner than the grid.
+/// A run that breaks through in the middle, and whose rim soon gets sharper than the grid resolves.
 Arguments doomed(const Arguments& more = {}) {
   return words("run fig3_oblate --no-pictures --set grid.nodes=32 --set run.end_time=0.02 "
                "--set membrane.spontaneous_curvature=16",
@@ -117,7 +120,8 @@ TEST_F(Cli, fills_the_folder) {
   const Result result = call(quick({"-o", "run"}));
   ASSERT_EQ(result.code, 0) << result.err;
   const fs::path run = work() / "run";
-  EXPECT_THAT(names_in(run), ElementsAre("frames", "history.csv", "scene.toml", "summary.txt"));
+  EXPECT_THAT(names_in(run),
+              ElementsAre("events.csv", "frames", "history.csv", "scene.toml", "summary.txt"));
   EXPECT_THAT(text_of(run / "history.csv"),
               StartsWith("t,dt,energy,bending_energy,int_KM2,P,sigma,sigma_DA,A,V,v,Da,dA_rel,"
                          "dV_rel,max_speed,components,genus"));
@@ -198,6 +202,196 @@ TEST_F(Cli, knows_files_and_built_in_scenes_apart) {
   EXPECT_THAT(result.err, HasSubstr("torus: the folder is not empty"));
 }
 
+// ------------------------------------------------------------------------------- early endings
+
+/// Ends well before its end time, with what there is as its last frame.
+void expect_ended(const Result& result, const fs::path& run, const std::string& words) {
+  EXPECT_EQ(result.code, 0) << result.err;
+  const double end = check_stored(run).back().time;
+  const std::string sentence = fmt::format("The run {} at t = {:.6g}\n", words, end);
+  EXPECT_THAT(result.out, HasSubstr(sentence));
+  EXPECT_THAT(text_of(run / "summary.txt"), HasSubstr(sentence));
+  expect_last_frame_at(end, run);
+}
+
+TEST_F(Cli, ends_where_the_vesicle_has_settled) {
+  const Result result =
+      call(words("run sphere -o run --no-pictures --set grid.nodes=16 --set shape.radius=0.45 "
+                 "--set run.end_time=10 --set stop.energy_rate=1e3"));
+  expect_ended(result, work() / "run", "settled");
+  EXPECT_EQ(read_history(work() / "run" / "history.csv").size(), 6u) << "the start and five steps";
+}
+
+TEST_F(Cli, ends_after_as_many_topology_changes_as_asked) {
+  const Result result = call(doomed({"-o", "run", "--set", "stop.topology_changes=1"}));
+  expect_ended(result, work() / "run", "stopped as asked after 1 topology change");
+  EXPECT_TRUE(read_events(work() / "run" / "events.csv").back().changes_topology());
+}
+
+TEST_F(Cli, ends_when_its_wall_clock_time_is_up) {
+  const Result result =
+      call(slow("10", {"-o", "run", "--no-pictures", "--set", "stop.wall_time=0.2"}));
+  expect_ended(result, work() / "run", "used up its wall-clock budget of 0.2 s");
+}
+
+// --------------------------------------------------------------------------------------- events
+
+TEST_F(Cli, tells_and_stores_events) {
+  const Result result = call(doomed({"-o", "run"}));
+  const fs::path run = work() / "run";
+  const std::vector<Event> events = read_events(run / "events.csv");
+  const double spacing = 2. / 32;
+  ASSERT_TRUE(std::ranges::any_of(events, &Event::changes_topology));
+  std::string lines, section = "\nEvents\n";
+  for (const Event& event : events) {
+    lines += to_text(event, spacing) + '\n';
+    section += "  " + to_text(event, spacing) + '\n';
+  }
+  EXPECT_THAT(result.out, HasSubstr("threads\n" + lines)) << "right after the line on the start";
+  EXPECT_THAT(text_of(run / "summary.txt"), HasSubstr(section));
+}
+
+TEST_F(Cli, warns_where_the_grid_was_too_coarse) {
+  const Result result = call(doomed({"-o", "run"}));
+  const std::vector<Event> events = read_events(work() / "run" / "events.csv");
+  const auto first = std::ranges::find_if(events, &Event::is_under_resolved);
+  ASSERT_NE(first, events.end());
+  const std::string warning = fmt::format(
+      "arning: the grid did not resolve the membrane everywhere, first at t = {:.6g}", first->time);
+  EXPECT_THAT(result.err, ContainsRegex("\nlamella: w" + warning + "[^\n]+grid.nodes[^\n]+\n$"));
+  EXPECT_THAT(text_of(work() / "run" / "summary.txt"), HasSubstr("\nW" + warning));
+}
+
+TEST_F(Cli, tells_events_above_its_progress) {
+  if (!Program::has_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
+  const std::string all = Program::on_terminal(100, doomed({"-o", "run"}), setting_);
+  const std::vector<Event> events = read_events(work() / "run" / "events.csv");
+  ASSERT_FALSE(events.empty());
+  for (const Event& event : events) {
+    const std::size_t at = all.find(to_text(event, 2. / 32) + "\r\n");
+    ASSERT_NE(at, all.npos);
+    EXPECT_THAT(all[at - 1], AnyOf('\r', '\n')) << "not behind the progress";
+  }
+}
+
+// -------------------------------------------------------------------------- starts from a frame
+
+/// Starts where another run ended, on the grid of quick().
+std::string scene_from(const std::string& file) {
+  return fmt::format("[grid]\nnodes = 32\n[shape]\nkind = \"frame\"\nfile = \"{}\"\n"
+                     "[run]\nend_time = 1e-6\n[output]\nframes = 2\n",
+                     file);
+}
+
+class Continued : public Cli {
+protected:
+  void SetUp() override {
+    Cli::SetUp();
+    ASSERT_EQ(call(quick({"-o", "scenes/first"})).code, 0);
+    write(work() / "scenes" / "second.toml", scene_from("first"));
+  }
+  /// The start of a run, after it has run.
+  std::string start_of(const Arguments& arguments, const std::string& folder) {
+    Arguments all{"run", "--no-pictures", "-o", folder};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Result result = call(all);
+    EXPECT_EQ(result.code, 0) << result.err;
+    check_stored(work() / folder);
+    return text_of(work() / folder / "start.hdf");
+  }
+  std::string refusal_of(const std::string& file, int code = 2) {
+    write(work() / "scenes" / "bad.toml", scene_from(file));
+    const Result result = call({"run", "scenes/bad.toml", "-o", "bad"});
+    EXPECT_EQ(result.code, code) << file;
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, MatchesRegex("lamella: [^\n]+\n"));
+    EXPECT_FALSE(fs::exists(work() / "bad"));
+    return result.err;
+  }
+  fs::path first_frame(int number) const {
+    return work() / "scenes" / "first" / "frames" / fmt::format("frame_{:04}.hdf", number);
+  }
+};
+
+TEST_F(Continued, where_a_run_ended) {
+  EXPECT_EQ(start_of({"scenes/second.toml"}, "run"), text_of(first_frame(4)));
+  const Measures end = read_history(work() / "scenes" / "first" / "history.csv").back(),
+                 start = read_history(work() / "run" / "history.csv").front();
+  EXPECT_EQ(start.time, 0);
+  EXPECT_NEAR(start.energy, end.energy, 1e-3 * end.energy);
+}
+
+TEST_F(Continued, at_any_frame_with_paths_of_the_command_line_from_the_current_folder) {
+  EXPECT_EQ(
+      start_of({"scenes/second.toml", "--set", "shape.file=scenes/first/frames/frame_0002.hdf"},
+               "run"),
+      text_of(first_frame(2)));
+}
+
+TEST_F(Continued, again_from_its_own_folder_alone) {
+  const std::string start = start_of({"scenes/second.toml"}, "run");
+  const std::string history = text_of(work() / "run" / "history.csv");
+  fs::remove_all(work() / "scenes");
+  EXPECT_THAT(text_of(work() / "run" / "scene.toml"), HasSubstr("file = \"start.hdf\""));
+  EXPECT_EQ(start_of({"run/scene.toml"}, "elsewhere"), start);
+  EXPECT_EQ(text_of(work() / "elsewhere" / "history.csv"), history);
+  EXPECT_EQ(start_of({"run/scene.toml", "--force"}, "run"), start) << "in the very same folder";
+  EXPECT_EQ(text_of(work() / "run" / "history.csv"), history);
+}
+
+TEST_F(Continued, with_the_end_of_a_built_in_scene_that_runs_first) {
+  setenv("TMPDIR", base_.c_str(), 1);
+  write(work() / "third.toml", scene_from("sphere"));
+  const Result result = call({"run", "third.toml", "--no-pictures"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("third starts where sphere ends, which runs first"));
+  EXPECT_THAT(names_in(work()), ElementsAre("scenes", "third", "third.toml"));
+  EXPECT_THAT(names_in(base_), Each(Not(HasSubstr(".hdf")))) << "nothing temporary is left";
+  unsetenv("TMPDIR");
+
+  ASSERT_EQ(call(words("run sphere --no-pictures --set grid.nodes=32")).code, 0);
+  EXPECT_EQ(start_of({"third.toml"}, "from_folder"), text_of(work() / "third" / "start.hdf"));
+  ASSERT_EQ(call(words("run sphere --no-pictures --force --set grid.nodes=32 "
+                       "--set shape.radius=0.7"))
+                .code,
+            0);
+  EXPECT_NE(start_of({"third.toml"}, "from_other"), text_of(work() / "third" / "start.hdf"))
+      << "a folder of that name goes first";
+  fs::remove(work() / "sphere" / "summary.txt");
+  EXPECT_EQ(start_of({"third.toml"}, "from_none"), text_of(work() / "third" / "start.hdf"))
+      << "if the run in it has ended";
+}
+
+TEST_F(Continued, not_when_interrupted_before) {
+  write(work() / "third.toml", scene_from("fig3_oblate"));
+  const Program program({"run", "third.toml", "--set", "grid.nodes=64"}, setting_);
+  while (!text_of(base_ / "work.out").starts_with("third starts where fig3_oblate ends"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  program.interrupt();
+  const Result result = program.wait();
+  EXPECT_EQ(result.code, 130);
+  EXPECT_EQ(result.err, "lamella: interrupted before the run began; nothing was written\n");
+  EXPECT_FALSE(fs::exists(work() / "third"));
+}
+
+TEST_F(Continued, only_from_what_is_there) {
+  EXPECT_THAT(refusal_of("frst"), HasSubstr("bad: [shape] file = \"frst\": no such frame, run or"));
+  EXPECT_THAT(refusal_of("sphre"), HasSubstr("did you mean \"sphere\"?"));
+  EXPECT_THAT(refusal_of("."),
+              HasSubstr("is neither a frame nor the folder of a run that has ended"));
+  fs::remove(work() / "scenes" / "first" / "summary.txt");
+  EXPECT_THAT(refusal_of("first"), HasSubstr("is neither a frame nor the folder of a run"));
+  EXPECT_THAT(refusal_of("second.toml", 4), HasSubstr("second.toml: cannot be read as a frame"));
+}
+
+TEST_F(Continued, only_on_the_grid_of_the_frame) {
+  const Result result = call({"run", "scenes/second.toml", "-o", "run", "--set", "grid.nodes=48"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("32 x 32 x 32"), HasSubstr("48 x 48 x 48"),
+                                HasSubstr("grid.nodes and grid.half_width must be those of")));
+  EXPECT_FALSE(fs::exists(work() / "run"));
+}
+
 // ----------------------------------------------------------------------- folders that are in use
 
 TEST_F(Cli, refuses_a_folder_with_something_in_it) {
@@ -220,7 +414,8 @@ TEST_F(Cli, replaces_a_run_only_when_told_and_keeps_what_is_not_its_own) {
   EXPECT_THAT(call(quick({"-o", "run"})).err, HasSubstr("--force"));
   EXPECT_EQ(text_of(run / "history.csv"), history);
 
-  for (const char* own : {"figure.png", ".summary.txt.12-0.tmp", "frames/.frame_0007.hdf.12-9.tmp"})
+  for (const char* own :
+       {"figure.png", "start.hdf", ".summary.txt.12-0.tmp", "frames/.frame_0007.hdf.12-9.tmp"})
     write(run / own, "old");
   const std::vector<const char*> others{"notes.txt", "frames/mine.hdf", "history.csv.bak"};
   for (const char* other : others) write(run / other, "precious");
@@ -228,17 +423,18 @@ TEST_F(Cli, replaces_a_run_only_when_told_and_keeps_what_is_not_its_own) {
   for (const char* other : others) EXPECT_EQ(text_of(run / other), "precious") << other;
   EXPECT_THAT(names_in(run / "frames"),
               ElementsAre("frame_0000.hdf", "frame_0001.hdf", "frames.hdf.series", "mine.hdf"));
-  EXPECT_THAT(names_in(run), ElementsAre("frames", "history.csv", "history.csv.bak", "notes.txt",
-                                         "scene.toml", "summary.txt"));
+  EXPECT_THAT(names_in(run), ElementsAre("events.csv", "frames", "history.csv", "history.csv.bak",
+                                         "notes.txt", "scene.toml", "summary.txt"));
 }
 
 TEST_F(Cli, keeps_the_old_run_when_the_new_one_cannot_start) {
   ASSERT_EQ(call(quick({"-o", "run"})).code, 0);
   const std::set<std::string> before = names_in(work() / "run");
-  EXPECT_EQ(call({"run", "torus", "-o", "run", "--force", "--set", "grid.nodes=32", "--set",
-                  "shape.tube_radius=0.1"})
+  EXPECT_EQ(call(words("run sphere -o run --force --set shape.kind=frame --set shape.file=run "
+                       "--set grid.nodes=48"))
                 .code,
-            2);
+            2)
+      << "its start is on another grid";
   EXPECT_EQ(names_in(work() / "run"), before);
 }
 
@@ -280,7 +476,8 @@ TEST_F(Cli, goes_on_where_interrupts_are_ignored) {
 TEST_F(Cli, keeps_the_last_good_state_of_a_run_that_cannot_go_on) {
   const Result result = call(doomed({"-o", "run"}));
   EXPECT_EQ(result.code, 3);
-  EXPECT_THAT(result.err, MatchesRegex("lamella: the run stopped at t = [0-9.e-]+: [a-z][^\n]+\n"));
+  EXPECT_THAT(result.err,
+              ContainsRegex("^lamella: the run stopped at t = [0-9.e-]+: [a-z][^\n]+\n"));
   const std::vector<Measures> history = check_stored(work() / "run");
   expect_last_frame_at(history.back().time, work() / "run");
   EXPECT_THAT(text_of(work() / "run" / "summary.txt"),
@@ -358,7 +555,7 @@ TEST_F(Cli, keeps_the_numbers_where_nothing_can_be_drawn) {
   EXPECT_THAT(result.err, AllOf(MatchesRegex("lamella: no pictures: [^\n]+\n"),
                                 HasSubstr("DISPLAY"), HasSubstr("lamella render")));
   EXPECT_THAT(names_in(work() / "run"),
-              ElementsAre("frames", "history.csv", "scene.toml", "summary.txt"));
+              ElementsAre("events.csv", "frames", "history.csv", "scene.toml", "summary.txt"));
   EXPECT_EQ(call({"render", "run", "--backend", "x"}).code, 5);
 }
 
