@@ -67,7 +67,7 @@ void add_scene(CLI::App& command, std::string& scene, std::vector<std::string>& 
       ->required()
       ->type_name("");
   command.add_option("--set", set, "Change a value of the scene; may be repeated")
-      ->expected(1)
+      ->allow_extra_args(false)
       ->take_all()
       ->type_name("SECTION.KEY=VALUE");
 }
@@ -138,15 +138,17 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
           .add_option("--grids", options.range.grids,
                       "Nodes along the shortest axis (default: 1/2, 3/4, 1, 3/2 of the scene's)")
           ->delimiter(',')
+          ->allow_extra_args(false)
           ->check(allowed("grid", "nodes"))
-          ->type_name("N,...");
+          ->type_name("N[,N]");
   CLI::Option* tolerances =
       tradeoff
           .add_option("--tolerances", options.range.tolerances,
                       "Of the time steps (default: 4, 1, 1/4 times the scene's)")
           ->delimiter(',')
+          ->allow_extra_args(false)
           ->check(allowed("numerics", "tolerance"))
-          ->type_name("X,...");
+          ->type_name("X[,X]");
   tradeoff.add_flag("--presets", options.range.presets_only, "Draft, standard and fine alone")
       ->excludes(grids)
       ->excludes(tolerances);

@@ -5,7 +5,9 @@
 #include "find_scene.h"
 #include "interrupt.h"
 #include "parallel.h"
+#include "progress.h"
 #include "render/render.h"
+#include "start_frame.h"
 #include "store/atomic_file.h"
 #include "sweep_progress.h"
 #include "tradeoff/report.h"
@@ -24,23 +26,24 @@ namespace {
 constexpr const char *table_file = "tradeoff.csv", *page_file = "tradeoff.md",
                      *plot_file = "tradeoff.png";
 
-/// To standard output, at once.
-void put(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
-
-/// The fastest of several runs; all have the same course.
-Trial fastest(const Scene& scene, int repeats, SweepProgress& progress) {
+/// The fastest of several runs; all have the same course. Where it starts from the end of another
+/// scene, that one runs before and does not count.
+Trial fastest(Scene scene, int repeats, SweepProgress& progress) {
   Trial best;
-  for (int n = 0; n < repeats && !interrupt_requested(); ++n) {
-    progress.begin(scene);
-    Trial trial = run_trial(scene, [&](double time) {
-      progress.update(time);
-      return !interrupt_requested();
-    });
-    progress.end();
-    if (n == 0 || trial.seconds < best.seconds) best = std::move(trial);
+  try {
+    const StartFrame start_frame(scene);
+    for (int n = 0; n < repeats && !interrupt_requested(); ++n) {
+      progress.begin(scene);
+      Trial trial = run_trial(scene, [&](double time) {
+        progress.update(time);
+        return !interrupt_requested();
+      });
+      progress.end();
+      if (n == 0 || trial.seconds < best.seconds) best = std::move(trial);
+    }
+  } catch (const SceneError& e) {
+    best.scene = scene;
+    best.stopped = e.what();
   }
   return best;
 }
@@ -49,7 +52,7 @@ Reference finest_run(std::span<const Scene> scenes) {
   const Scene scene = finer_than_all(scenes);
   const std::string name =
       fmt::format("a run at {}, tolerance {:g}", grid_text(scene), scene.numerics.tolerance);
-  put(fmt::format("Reference: {}\n", name));
+  say(fmt::format("Reference: {}\n", name));
   SweepProgress progress({&scene, 1}, 1);
   const Trial trial = fastest(scene, 1, progress);
   if (!trial.stopped.empty())
@@ -105,13 +108,13 @@ std::vector<Trial> carry_out(const Scene& scene, std::span<const Scene> scenes,
                              const Reference& reference, const fs::path& folder, int repeats) {
   std::vector<Trial> trials;
   SweepProgress progress(scenes, repeats);
-  put(table_head());
+  say(table_head());
   for (const Scene& variant : scenes) {
     Trial trial = fastest(variant, repeats, progress);
     if (interrupt_requested()) break;
     trial.preset = preset_of(variant, scene);
     if (trial.stopped.empty()) trial.errors = compare(trial.history, reference);
-    put(table_row(trial));
+    say(table_row(trial));
     trials.push_back(std::move(trial));
     mark_front(trials);
     write_text_atomically(folder / table_file, tradeoff_csv(trials));
@@ -131,7 +134,7 @@ int tradeoff(const TradeoffOptions& options) {
   set_thread_count(options.threads);
   watch_for_interrupt();
   if (!reference) reference = finest_run(scenes);
-  put(fmt::format("{} to t = {:g}, compared with {}\n", scene.name, scene.end_time,
+  say(fmt::format("{} to t = {:g}, compared with {}\n", scene.name, scene.end_time,
                   reference->source()));
 
   const std::vector<Trial> trials = carry_out(scene, scenes, *reference, folder, options.repeats);
@@ -139,7 +142,7 @@ int tradeoff(const TradeoffOptions& options) {
   write_text_atomically(folder / page_file,
                         tradeoff_markdown(scene, *reference, trials, options.repeats));
   const int pictures = draw(trials, folder, options.backend);
-  put(fmt::format("In {}: {}, {}{}\n", folder.string(), table_file, page_file,
+  say(fmt::format("In {}: {}, {}{}\n", folder.string(), table_file, page_file,
                   pictures == success ? fmt::format(", {}", plot_file) : ""));
   return interrupt_requested() ? interrupted : pictures;
 }

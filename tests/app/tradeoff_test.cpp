@@ -199,9 +199,8 @@ TEST(Sweep, goes_on_after_a_run_that_cannot) {
 // --------------------------------------------------------------------------------------- command
 
 Arguments small_sweep(const Arguments& more = {}) {
-  return words("tradeoff fig3_oblate -o out --grids 32,40 --tolerances 0.02 "
-               "--set run.end_time=2e-5",
-               more);
+  return words(
+      "tradeoff -o out --set run.end_time=2e-5 --tolerances 0.02 --grids 32,40 fig3_oblate", more);
 }
 
 TEST_F(Cli, explains_itself) {
@@ -287,8 +286,8 @@ TEST_F(Cli, names_the_reference_that_is_no_use) {
 }
 
 TEST_F(Cli, runs_a_preset) {
-  ASSERT_EQ(call(words("run fig3_oblate -o run --no-pictures --preset draft "
-                       "--set run.end_time=1e-6"))
+  ASSERT_EQ(call(words("run --preset draft --no-pictures -o run --set run.end_time=1e-6 "
+                       "fig3_oblate"))
                 .code,
             0);
   EXPECT_THAT(text_of(work() / "run" / "scene.toml"),
