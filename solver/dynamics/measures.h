@@ -11,15 +11,16 @@ struct Measures {
   double int_KM2 = 0;        ///< int K_M^2 dA (the number that Tables 1 and 2 of the paper list)
   double P = 0;              ///< pressure: multiplier of the volume
   double sigma = 0;          ///< tension: multiplier of the area
-  double sigma_DA = 0;       ///< multiplier of the area difference
+  double K_multiplier =
+      0; ///< multiplier of the area difference: coefficient of K in v_N, 2 h sigma_DA
   double area = 0, volume = 0;
   double reduced_volume = 0;  ///< V / (4/3 pi Rs^3), Rs = sqrt(A / 4 pi)
   double area_difference = 0; ///< reduced: -int K_M dA / (8 pi Rs), 1 for a sphere
-  double area_drift = 0;      ///< A / A(0) - 1
-  double volume_drift = 0;    ///< V / V(0) - 1
+  double area_drift = 0;      ///< A over what it should be, less 1
+  double volume_drift = 0;    ///< of the volume, where it is held
   double max_speed = 0;       ///< largest |normal velocity|
   int components = 0;         ///< connected parts of the inside
-  int genus = 0; ///< sum over the components, from int K dA = 4 pi (components - genus)
+  int genus = 0;              ///< sum over the components
 };
 
 } // namespace lamella

@@ -3,22 +3,26 @@
 #include "parallel.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace lamella {
 
 namespace {
 constexpr double blend = 1;           // z0: modes with z above it are mostly Euler
 constexpr double least_history = 0.3; // of SBDF2, for stiff modes too: cuts their lag
+constexpr double fade = 30; // z1: the stiffest, where stability is marginal, lose that too
 constexpr double least_spline_symbol =
     0.25; // along an axis; nodal rates become coefficient rates no further
 double* numbers(std::complex<double>* modes) { return reinterpret_cast<double*>(modes); }
 } // namespace
 
-SemiImplicit::SemiImplicit(const Grid& grid, Fourier& fourier)
+SemiImplicit::SemiImplicit(const Grid& grid, Fourier& fourier, int responses)
     : grid_(grid), fourier_(fourier), rate_(fourier.modes(), 0.0),
-      spectral_increment_(fourier.modes(), 0.0), spectral_response_(fourier.modes(), 0.0),
-      increment_(grid.size(), 0.0), previous_(grid.size(), 0.0), response_(grid.size(), 0.0),
-      before_(grid.size(), 0.0) {
+      spectral_increment_(fourier.modes(), 0.0), increment_(grid.size(), 0.0),
+      previous_(grid.size(), 0.0), before_(grid.size(), 0.0) {
+  for (int i = 0; i < responses; i++)
+    responses_.push_back(
+        {Array<std::complex<double>>(fourier.modes(), 0.0), Array<double>(grid.size(), 0.0)});
   auto symbol = [&](int axis, int m) {
     return std::max(least_spline_symbol, fourier.spline_symbol(axis, m));
   };
@@ -45,7 +49,8 @@ SpectralRow SemiImplicit::row(int ky, int kz) const {
           implicit_.stiffness,
           implicit_.tension,
           blend,
-          least_history};
+          least_history,
+          fade};
 }
 
 void SemiImplicit::predict(const Extension& rates, double dt, const ImplicitSymbol& symbol) {
@@ -57,40 +62,70 @@ void SemiImplicit::predict(const Extension& rates, double dt, const ImplicitSymb
   auto step = [&](int ky, int kz, std::complex<double>* modes) {
     const std::size_t at = fourier_.row_index(ky, kz);
     kernels().spectral_row(row(ky, kz), numbers(modes), numbers(&rate_[at]),
-                           numbers(&spectral_increment_[at]), numbers(&spectral_response_[at]),
-                           response_factor_);
+                           numbers(&spectral_increment_[at]), numbers(&responses_[0].spectral[at]),
+                           last_factor_);
   };
   fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step,
                  [&](int k, const double* in) { std::copy_n(in, plane, &increment_[k * plane]); });
 }
 
-void SemiImplicit::respond(const Extension& rates) {
+void SemiImplicit::respond(int which, const Extension& rates) {
   const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
+  Response& response = responses_[which];
   auto step = [&](int ky, int kz, std::complex<double>* modes) {
     kernels().euler_row(row(ky, kz), numbers(modes));
-    std::copy_n(modes, fourier_.row_modes(), &spectral_response_[fourier_.row_index(ky, kz)]);
+    std::copy_n(modes, fourier_.row_modes(), &response.spectral[fourier_.row_index(ky, kz)]);
   };
-  fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step,
-                 [&](int k, const double* in) { std::copy_n(in, plane, &response_[k * plane]); });
+  fourier_.apply(
+      [&](int k, double* out) { rates.plane(k, out); }, step,
+      [&](int k, const double* in) { std::copy_n(in, plane, &response.nodal[k * plane]); });
 }
 
-void SemiImplicit::apply(LevelSet& phi, double factor, double constant) {
+void SemiImplicit::apply(LevelSet& phi, std::span<const double> factors, double constant) {
   double* c = phi.coefficients().data();
   parallel_for(grid_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = 0; r < responses_.size(); r++) {
+      const double* response = responses_[r].nodal.data();
+      for (std::size_t i = begin; i < end; i++) increment_[i] += factors[r] * response[i];
+    }
     for (std::size_t i = begin; i < end; i++) {
-      increment_[i] += factor * response_[i] + constant;
+      increment_[i] += constant;
       before_[i] = c[i];
       c[i] += increment_[i];
     }
   });
-  response_factor_ = factor;
+  last_factor_ = factors[0]; // the next predict() adds it while it reads the rows anyway
+  for (std::size_t r = 1; r < responses_.size(); r++)
+    for (std::size_t i = 0; i < spectral_increment_.size(); i++)
+      spectral_increment_[i] += factors[r] * responses_[r].spectral[i];
   spectral_increment_[0] += constant;
 }
 
 void SemiImplicit::rescale(double factor) {
-  for (auto* modes : {&rate_, &spectral_increment_, &spectral_response_})
+  for (auto* modes : {&rate_, &spectral_increment_})
     for (auto& m : *modes) m *= factor;
+  for (Response& response : responses_)
+    for (auto& m : response.spectral) m *= factor;
   for (double& d : increment_) d *= factor;
+}
+
+void SemiImplicit::shift(const std::array<int, 3>& cells) {
+  for (auto* values : {&increment_, &previous_, &before_}) lamella::shift(grid_, cells, *values);
+  for (Response& response : responses_) lamella::shift(grid_, cells, response.nodal);
+  auto phase = [&](int axis, int m) {
+    return std::polar(1.0, 2 * std::numbers::pi * m * cells[axis] / grid_.nodes[axis]);
+  };
+  for (int ky = 0; ky < grid_.ny(); ky++)
+    for (int kz = 0; kz < grid_.nz(); kz++) {
+      const std::complex<double> across = phase(1, ky) * phase(2, kz);
+      for (int kx = 0; kx < fourier_.row_modes(); kx++) {
+        const std::size_t at = fourier_.row_index(ky, kz) + kx;
+        const std::complex<double> f = across * phase(0, kx);
+        rate_[at] *= f;
+        spectral_increment_[at] *= f;
+        for (Response& response : responses_) response.spectral[at] *= f;
+      }
+    }
 }
 
 } // namespace lamella

@@ -23,24 +23,25 @@ struct ImplicitSymbol {
 /// A step is made of predict(), respond() and apply(), in this order.
 class SemiImplicit {
 public:
-  SemiImplicit(const Grid& grid, Fourier& fourier);
+  /// `responses`: to how many constraint forces, 1 or 2.
+  SemiImplicit(const Grid& grid, Fourier& fourier, int responses);
 
   /// Coefficient increment of a step of length dt at the given nodal rates.
   void predict(const Extension& rates, double dt, const ImplicitSymbol& symbol);
 
-  /// What a constraint force does in the same step: its nodal rates, smoothed as the step smooths.
-  /// Constraints that are kept along this response, and not along the force itself, do not work
-  /// against the step.
-  void respond(const Extension& rates);
+  /// What constraint force `which` does in the same step: its nodal rates, smoothed as the step
+  /// smooths. Constraints that are kept along this response, and not along the force itself, do not
+  /// work against the step.
+  void respond(int which, const Extension& rates);
 
-  /// c += increment + factor response + constant; the sum is the increment that the next step
-  /// remembers.
-  void apply(LevelSet& phi, double factor, double constant);
+  /// c += increment + sum of factor response + constant; the sum is the increment that the next
+  /// step remembers.
+  void apply(LevelSet& phi, std::span<const double> factors, double constant);
 
   /// Coefficients at the nodes: of the step under way from predict() on, of the last step after
   /// apply().
   std::span<const double> increment() const { return increment_; }
-  std::span<const double> response() const { return response_; }
+  std::span<const double> response(int which) const { return responses_[which].nodal; }
   /// Of the step before.
   std::span<const double> previous_increment() const { return previous_; }
   /// Coefficients before the last apply(): what to go back to when the step went wrong.
@@ -51,6 +52,12 @@ public:
   /// phi was multiplied by `factor`.
   void rescale(double factor);
 
+  /// The box moved by so many cells: what was kept follows.
+  void shift(const std::array<int, 3>& cells);
+
+  /// Forgets the steps before: phi was changed by other means.
+  void restart() { dt_ = 0; }
+
 private:
   SpectralRow row(int ky, int kz) const;
 
@@ -58,10 +65,16 @@ private:
   Fourier& fourier_;
   std::vector<double> kx2_, inv_symbol_x_; // each number twice: real and imaginary part
   std::vector<double> k2_[2], symbol_[2];  // along y and z
-  Array<std::complex<double>> rate_, spectral_increment_, spectral_response_;
-  Array<double> increment_, previous_, response_, before_;
+  struct Response {
+    Array<std::complex<double>> spectral;
+    Array<double> nodal;
+  };
+  Array<std::complex<double>> rate_, spectral_increment_;
+  Array<double> increment_, previous_, before_;
+  std::vector<Response> responses_;
   ImplicitSymbol implicit_;
-  double dt_ = 0, ratio_ = 0, response_factor_ = 0;
+  double dt_ = 0, ratio_ = 0;
+  double last_factor_ = 0; // of the first response, still missing in spectral_increment_
 };
 
 } // namespace lamella

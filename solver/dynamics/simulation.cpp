@@ -1,7 +1,6 @@
 #include "dynamics/simulation.h"
 
 #include "error.h"
-#include "levelset/topology.h"
 #include "parallel.h"
 #include "scene/shapes.h"
 
@@ -20,12 +19,16 @@ constexpr double margin = 2.75;
 // Largest |F| in kappa / h^3: more is an unresolved tip.
 constexpr double force_limit = 1;
 
-// Relative error of volume and area: what the start may have against the exact shape (of a sphere
-// quadrature gets one or the other right), what is good enough to be recorded, and what stops a
-// run.
-constexpr double start_drift = 1e-4, worst_drift = 5e-6, hopeless_drift = 1e-5;
-constexpr int most_projections = 8;
-// Of what steps add to volume and area beyond first order; on a sphere it cannot be made up for.
+// Relative error of what is held: what the start may have against the exact shape (of a sphere
+// quadrature gets volume or area right), what is good enough to be recorded, and what stops a run.
+constexpr double start_drift = 1e-4, worst_drift = 5e-6, hopeless_drift = 1e-3;
+constexpr int most_projections = 12;
+constexpr double longest_displacement = 0.3;
+// Spacings; displaced further than that, the membrane needs samples that it did not before. (With
+// the area difference held, always: int K_M dA feels to first order that points displaced along
+// their normals are no longer the nearest ones.)
+constexpr double far_displacement = 0.02;
+// Of what steps add to the constraints beyond first order; on a sphere it cannot be made up for.
 constexpr double memory = 0.9;
 
 // |grad phi| over its mean; where it varies more the step loses stability.
@@ -33,92 +36,193 @@ constexpr double gauge_limit = 1.2;
 constexpr int steps_between_renormalisations = 5;
 constexpr int steps_between_responses = 4;
 
+// Of the membrane from a side of the box, at which the box follows it.
+constexpr double recentre_margin = 3.5;
+// Smaller radii of curvature and half-widths of gaps are reported as unresolved.
+constexpr double least_radius = 0.75, least_half_gap = 0.8;
+constexpr int most_failures = 8;      // of a step, each time ten times shorter
+constexpr double restart_step = 0.03; // after a change of topology; h^4 / kappa
+
 double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 } // namespace
 
 Simulation::Simulation(const Scene& scene)
     : bending_{scene.membrane.bending_modulus, scene.membrane.spontaneous_curvature},
+      contact_(scene.contact), constraints_(scene),
       control_(
           {scene.numerics.tolerance, scene.grid().spacing, scene.membrane.bending_modulus,
            scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16}),
       phi_(scene.grid()), fourier_(scene.grid()), band_(scene.grid(), band_half_width),
-      extension_(scene.grid()), gauge_(scene.grid()), stepper_(scene.grid(), fourier_) {
-  const std::vector<double> start = initial_phi(scene.shape, scene.grid());
-  std::copy(start.begin(), start.end(), phi_.coefficients().begin());
-  phi_.fit(start, fourier_);
-  area_ = exact_area(scene.shape);
-  volume_ = exact_volume(scene.shape);
-  measure();
-  if (drift() < start_drift) {
-    area_ = integrals_.area();
-    volume_ = integrals_.volume;
-  }
+      extension_(scene.grid()), gauge_(scene.grid()),
+      stepper_(scene.grid(), fourier_, constraints_.is_held(2) ? 2 : 1) {
+  place_start(scene);
+  if (drift(0) > hopeless_drift) throw RunError(why_not_kept());
   measures_ = summarise(0);
+  topology_ = {measures_.components, measures_.genus};
   check(measures_);
+  note_unresolved();
+}
+
+/// The level set of the scene's start, and what the constraints set out from.
+void Simulation::place_start(const Scene& scene) {
+  std::vector<double> start;
+  if (scene.shape.kind == ShapeKind::frame) {
+    Frame frame = read_frame(scene.shape.file);
+    if (frame.grid != grid())
+      throw RunError(fmt::format(
+          "the frame has {} x {} x {} nodes with a spacing of {:.6g}, the scene {} x {} x {} "
+          "with {:.6g}; grid.nodes and grid.half_width must be those of the frame",
+          frame.grid.nx(), frame.grid.ny(), frame.grid.nz(), frame.grid.spacing, grid().nx(),
+          grid().ny(), grid().nz(), grid().spacing));
+    start = std::move(frame.phi);
+    cells_ = frame.cells;
+  } else {
+    start = initial_phi(scene.shape, grid(), scene.perturbation);
+  }
+  std::ranges::copy(start, phi_.coefficients().begin());
+  phi_.fit(start, fourier_);
+  locate();
+  surface_.curvatures(phi_, band_);
+  integrals_ = integrate(surface_, bending_, {});
+  start_ = quantities(integrals_);
+  if (scene.shape.kind != ShapeKind::frame) {
+    start_[0] = exact_volume(scene.shape);
+    start_[1] = exact_area(scene.shape);
+  }
+  // Volume and area first: only then is the area difference that of the shape.
+  Scene without = scene;
+  without.area_difference = {};
+  constraints_ = Constraints(without);
+  constraints_.begin(start_);
+  measure(0);
+  if (drift(0) < start_drift) start_ = quantities(integrals_);
+  start_[2] = integrals_.int_KM();
+  constraints_ = Constraints(scene);
+  constraints_.begin(start_);
+  measure(0);
 }
 
 Frame Simulation::frame() const {
   LevelSet phi = phi_;
   if (broken_) std::ranges::copy(stepper_.before(), phi.coefficients().begin());
   phi.update_nodal();
-  return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}, {}};
+  return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}, cells_};
 }
 
 // ------------------------------------------------------------------------------------------------
 // measuring
 
-/// Brings the membrane onto its constraints and finds everything that is known of it. Second
-/// derivatives suffice to measure the drift of volume and area; what is recorded is measured after
-/// its correction. Returns the excess before it.
-Simulation::Excess Simulation::measure() {
+/// Brings the membrane onto its constraints at a time and finds everything that is known of it.
+/// Second derivatives suffice to measure what it is off by; what is recorded is measured after the
+/// correction. Returns the excess before it.
+Quantities Simulation::measure(double time) {
   locate();
   surface_.curvatures(phi_, band_);
   integrals_ = integrate(surface_, bending_, {});
-  const Excess excess{integrals_.volume - volume_, integrals_.area() - area_};
-  project();
-  measure_forces();
-  for (int pass = 0; pass < most_projections && drift() > worst_drift; pass++) {
-    project();
-    measure_forces();
-  }
+  const Quantities excess = quantities(integrals_) - constraints_.target(time);
+  lead_to_constraints(time);
   return excess;
 }
 
-double Simulation::drift() const {
-  return std::max(std::abs(integrals_.volume / volume_ - 1),
-                  std::abs(integrals_.area() / area_ - 1));
+/// Displaces the membrane by combinations of 1, K_M, K until it has the quantities that are held.
+void Simulation::lead_to_constraints(double time) {
+  set_directions();
+  const Eigen::Matrix3d effect = effect_of_directions();
+  for (int pass = 0; pass == 0 || (pass < most_projections && drift(time) > worst_drift); pass++) {
+    displace(constraints_.combination(effect, constraints_.target(time) - quantities(integrals_)));
+    measure_forces(time);
+  }
+}
+
+/// The displacements 1, K_M, K of the held quantities, as phi takes them: what a change of
+/// coefficients moves the membrane by is a little smoother than its nodal values. That counts where
+/// the three are almost dependent, near shapes of extreme area difference.
+void Simulation::set_directions() {
+  for (const int m : constraints_.held()) {
+    std::vector<double>&nodal = directions_[m].nodal, &moves = directions_[m].moves;
+    nodal.resize(band_.size());
+    moves.resize(surface_.size());
+    auto function = [&](std::size_t i) {
+      return m == 0 ? 1 : m == 1 ? surface_.KM()[i] : surface_.K()[i];
+    };
+    for (std::size_t i = 0; i < surface_.entry().size(); i++)
+      nodal[surface_.entry()[i]] = function(i) * surface_.grad()[i];
+    extension_.complete(0, nodal);
+    for (std::size_t s = 0; s < band_.size(); s++) nodal[s] *= band_.taper()[s];
+    if (constraints_.is_held(2))
+      evaluate_on_membrane(nodal, moves);
+    else
+      for (std::size_t i = 0; i < surface_.size(); i++) moves[i] = function(i);
+  }
+}
+
+/// The displacement by a change of the band's coefficients.
+void Simulation::evaluate_on_membrane(std::span<const double> change, std::vector<double>& moves) {
+  field_.resize(grid().size(), 0.0);
+  for (std::size_t s = 0; s < band_.size(); s++) field_[band_.node()[s]] = change[s];
+  SplineView view = phi_.view();
+  view.coefficients = field_.data();
+  const ConstPoints p = surface_.points();
+  parallel_for(surface_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    const std::size_t n = end - begin;
+    double taylor[10 * 256];
+    kernels().taylor(view, n, {p.x + begin, p.y + begin, p.z + begin}, taylor);
+    for (std::size_t i = 0; i < n; i++) moves[begin + i] = taylor[i] / surface_.grad()[begin + i];
+  });
+  for (std::size_t s = 0; s < band_.size(); s++) field_[band_.node()[s]] = 0;
+}
+
+Eigen::Matrix3d Simulation::effect_of_directions() const {
+  Eigen::Matrix3d effect = Eigen::Matrix3d::Zero();
+  for (const int m : constraints_.held()) {
+    Eigen::Vector3d moments = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < surface_.size(); i++) {
+      const double w = surface_.weight()[i] * directions_[m].moves[i];
+      moments += w * Eigen::Vector3d(1, surface_.KM()[i], surface_.K()[i]);
+    }
+    effect.col(m) = change_from(moments);
+  }
+  return effect;
+}
+
+double Simulation::drift(double time) const {
+  return constraints_.drift(quantities(integrals_), time);
 }
 
 void Simulation::locate() {
   phi_.update_nodal();
   band_.update(phi_);
-  surface_.sample(band_);
+  surface_.sample(phi_, band_);
   if (surface_.size() == 0) throw RunError("the membrane has disappeared");
   extension_.prepare(band_, surface_.sampled());
 }
 
-/// Displaces the membrane by a + b K_M so that volume and area are those of the scene.
-void Simulation::project() {
-  const double longest = 0.3 * grid().spacing;
-  const Multipliers u =
-      displacement_for(integrals_, volume_ - integrals_.volume, area_ - integrals_.area());
-  const Points p = band_.points();
-  work_.resize(band_.size());
+/// A combination of the directions, scaled down to the distance up to which it means something.
+void Simulation::displace(const Eigen::Vector3d& u) {
+  const double longest = longest_displacement * grid().spacing;
+  std::vector<double>& moves = work_;
+  moves.assign(surface_.size(), 0);
+  double greatest = 0;
   for (std::size_t i = 0; i < surface_.size(); i++) {
-    const int s = surface_.entry()[i];
-    const double d = std::clamp(u.P + u.sigma * surface_.KM()[i], -longest, longest);
-    const Vec3 n = surface_.normal(i);
-    work_[s] = d * surface_.grad()[i];
-    p.x[s] += d * n[0];
-    p.y[s] += d * n[1];
-    p.z[s] += d * n[2];
+    for (const int m : constraints_.held()) moves[i] += u[m] * directions_[m].moves[i];
+    greatest = std::max(greatest, std::abs(moves[i]));
   }
-  extension_.complete(0, work_);
+  const double scale = greatest > longest ? longest / greatest : 1;
+  for (std::size_t i = 0; i < surface_.size(); i++) surface_.displace(i, scale * moves[i], band_);
   std::span<double> c = phi_.coefficients();
-  for (std::size_t s = 0; s < band_.size(); s++) c[band_.node()[s]] -= band_.taper()[s] * work_[s];
+  for (std::size_t s = 0; s < band_.size(); s++) {
+    double change = 0;
+    for (const int m : constraints_.held()) change += u[m] * directions_[m].nodal[s];
+    c[band_.node()[s]] -= scale * change;
+  }
+  if (constraints_.is_held(2) || greatest > far_displacement * grid().spacing) {
+    locate();
+    surface_.curvatures(phi_, band_);
+    set_directions();
+  }
 }
 
-void Simulation::measure_forces() {
+void Simulation::measure_forces(double time) {
   surface_.jets(phi_, band_);
   const double h = grid().spacing, limit = force_limit * bending_.bending_modulus / (h * h * h);
   variation_.resize(surface_.size());
@@ -129,7 +233,7 @@ void Simulation::measure_forces() {
     max_force_ = std::max(max_force_, std::abs(F));
   }
   integrals_ = integrate(surface_, bending_, variation_);
-  multipliers_ = multipliers_at_rest(integrals_);
+  multipliers_ = constraints_.multipliers(integrals_, constraints_.rate(time));
   max_speed_ = 0;
   for (std::size_t i = 0; i < surface_.size(); i++)
     max_speed_ = std::max(max_speed_, std::abs(velocity(i)));
@@ -137,7 +241,8 @@ void Simulation::measure_forces() {
 
 /// Normal velocity at a sample (Eq. 80).
 double Simulation::velocity(std::size_t i) const {
-  return -variation_[i] + multipliers_.sigma * surface_.KM()[i] + multipliers_.P;
+  return -variation_[i] + multipliers_[0] + multipliers_[1] * surface_.KM()[i] +
+         multipliers_[2] * surface_.K()[i];
 }
 
 Measures Simulation::summarise(double dt) const {
@@ -146,32 +251,36 @@ Measures Simulation::summarise(double dt) const {
                pi = std::numbers::pi;
   m.time = measures_.time + dt;
   m.dt = dt;
-  m.energy = m.bending_energy = integrals_.energy;
+  m.bending_energy = integrals_.energy;
+  m.energy = integrals_.energy + constraints_.potential(quantities(integrals_));
   m.int_KM2 = integrals_.int_KM2();
-  m.P = multipliers_.P;
-  m.sigma = multipliers_.sigma;
+  m.P = multipliers_[0];
+  m.sigma = multipliers_[1];
+  m.K_multiplier = multipliers_[2];
   m.area = A;
   m.volume = V;
   m.reduced_volume = V / (4. / 3 * pi * radius * radius * radius);
   m.area_difference = -integrals_.int_KM() / (8 * pi * radius);
-  m.area_drift = A / area_ - 1;
-  m.volume_drift = V / volume_ - 1;
+  m.area_drift = A / start_[1] - 1;
+  m.volume_drift = constraints_.is_held(0) ? V / constraints_.target(m.time)[0] - 1 : 0;
   m.max_speed = max_speed_;
-  m.components = count_components(grid(), phi_.nodal());
-  m.genus = m.components - int(std::lround(integrals_.int_K() / (4 * pi)));
+  const Topology topology = topology_of(grid(), phi_.nodal());
+  m.components = topology.components;
+  m.genus = topology.genus;
   return m;
 }
 
+std::string Simulation::why_not_kept() const {
+  return steps_ == 0 ? "the start shape is thinner than the grid can resolve; try more grid.nodes"
+                     : "volume and area can no longer be kept: somewhere the membrane is thinner "
+                       "than the grid can resolve; try more grid.nodes";
+}
+
 void Simulation::check(const Measures& m) const {
-  for (double value : {m.energy, m.int_KM2, m.P, m.sigma, m.area, m.volume, m.max_speed})
+  for (double value :
+       {m.energy, m.int_KM2, m.P, m.sigma, m.K_multiplier, m.area, m.volume, m.max_speed})
     if (!std::isfinite(value)) throw RunError("a measured value is not finite");
   if (!(m.volume > 0 && m.area > 0)) throw RunError("the membrane no longer encloses a volume");
-  if (drift() > hopeless_drift)
-    throw RunError(
-        steps_ == 0
-            ? "the start shape is thinner than the grid can resolve; try more grid.nodes"
-            : "volume and area can no longer be kept: somewhere the membrane is thinner than the "
-              "grid can resolve; try more grid.nodes");
   for (std::size_t i = 0; i < surface_.size(); i++) {
     const Vec3 p = surface_.point(i);
     for (int d = 0; d < 3; d++)
@@ -185,8 +294,10 @@ void Simulation::check(const Measures& m) const {
 // time steps
 
 double Simulation::choose_dt(double latest) const {
-  const double dt =
-      steps_ == 0 ? control_.first(max_force_) : control_.next(measures_.dt, error_, max_speed_);
+  double dt =
+      last_dt_ == 0 ? control_.first(max_force_) : control_.next(last_dt_, error_, max_speed_);
+  dt = std::min(dt, constraints_.longest_step(time()));
+  if (constraints_.turns_at(time())) dt = std::min(dt, control_.first(max_speed_));
   const double left = latest - time();
   if (dt >= left * (1 - 1e-9)) return left;
   return dt > 0.5 * left ? 0.5 * left : dt;
@@ -198,72 +309,105 @@ double Simulation::next_dt() const { return choose_dt(1e300); }
 template <class Velocity>
 void Simulation::extend_rates(Velocity&& v) {
   work_.resize(band_.size());
-  for (std::size_t i = 0; i < surface_.size(); i++)
+  for (std::size_t i = 0; i < surface_.entry().size(); i++)
     work_[surface_.entry()[i]] = -v(i) * surface_.grad()[i];
   extension_.complete(0, work_);
   extension_.fill(band_, work_);
 }
 
-/// Adds to the step's increment what keeps volume and area to first order: the response to a
-/// tension, and a constant. What the last steps gained beyond first order is expected again.
-/// (Constraint forces in the metric of the implicit step: energy then falls as in a gradient flow
-/// of that metric. Corrected afterwards, along K_M itself, long tubes began to oscillate.)
-void Simulation::apply_constrained() {
+/// Adds to the step's increment what leads the constraints to their targets to first order: the
+/// responses to a tension and to a multiplier of the area difference, and a constant. What the last
+/// steps gained beyond first order is expected again. (Constraint forces in the metric of the
+/// implicit step: energy then falls as in a gradient flow of that metric. Corrected afterwards,
+/// along K_M itself, long tubes began to oscillate.)
+void Simulation::apply_constrained(double time) {
   const std::size_t n = surface_.size();
-  std::vector<double> x(n), y(n), z(n), increment(n), response(n);
-  for (std::size_t i = 0; i < n; i++) {
-    const Vec3 p = surface_.point(i);
-    x[i] = p[0];
-    y[i] = p[1];
-    z[i] = p[2];
-  }
-  SplineView field = phi_.view();
-  for (auto [source, values] :
-       {std::pair{stepper_.increment(), &increment}, {stepper_.response(), &response}}) {
-    field.coefficients = source.data();
+  const ConstPoints p = surface_.points();
+  std::vector<double> along[3];
+  auto on_membrane = [&](std::span<const double> nodal, std::vector<double>& values) {
+    SplineView field = phi_.view();
+    field.coefficients = nodal.data();
+    values.resize(n);
     parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
-      kernels().cubic(field, end - begin, {&x[begin], &y[begin], &z[begin]}, &(*values)[begin]);
+      kernels().cubic(field, end - begin, {p.x + begin, p.y + begin, p.z + begin}, &values[begin]);
     });
-  }
-  Eigen::Matrix2d change = Eigen::Matrix2d::Zero(); // of volume and area, with factor and constant
-  Eigen::Vector2d wanted{volume_ - integrals_.volume - excess_.volume,
-                         area_ - integrals_.area() - excess_.area};
+  };
+  on_membrane(stepper_.increment(), along[0]);
+  on_membrane(stepper_.response(0), along[1]);
+  if (constraints_.is_held(2)) on_membrane(stepper_.response(1), along[2]);
+
+  Eigen::Vector3d constant = Eigen::Vector3d::Zero(), moments[3] = {constant, constant, constant};
   for (std::size_t i = 0; i < n; i++) {
-    const double w = -surface_.weight()[i] / surface_.grad()[i], KM = surface_.KM()[i];
-    const Eigen::Vector2d effect{w, -w * KM};
-    change.col(0) += effect * response[i];
-    change.col(1) += effect;
-    wanted -= effect * increment[i];
+    const double w = -surface_.weight()[i] / surface_.grad()[i];
+    const Eigen::Vector3d effect{w, w * surface_.KM()[i], w * surface_.K()[i]};
+    constant += effect;
+    for (int m = 0; m < 3; m++)
+      if (!along[m].empty()) moments[m] += along[m][i] * effect;
   }
-  const Eigen::Vector2d solution = solve_scaled(change, wanted);
-  if (!solution.allFinite()) throw RunError("the step is not finite");
-  stepper_.apply(phi_, solution[0], solution[1]);
+  Eigen::Matrix3d effect;
+  effect << change_from(constant), change_from(moments[1]), change_from(moments[2]);
+  const Eigen::Vector3d factors =
+      constraints_.combination(effect, constraints_.target(time) - quantities(integrals_) -
+                                           excess_ - change_from(moments[0]));
+  if (!factors.allFinite()) throw RunError("the step is not finite");
+  stepper_.apply(phi_, std::span(factors.data() + 1, 2), factors[0]);
 }
 
 void Simulation::step(double latest) {
-  const double dt = choose_dt(latest), C = bending_.spontaneous_curvature,
-               kappa = bending_.bending_modulus;
+  int failures = 0;
+  while (!try_step(choose_dt(latest), latest)) {
+    if (++failures == most_failures) throw RunError(why_not_kept());
+    go_back();
+  }
+  change_topology_if_needed();
+  note_unresolved();
+  recentre_if_needed();
+  renormalise_if_needed();
+}
+
+/// False if the step did not end on the constraints.
+bool Simulation::try_step(double dt, double latest) {
+  const double C = bending_.spontaneous_curvature, kappa = bending_.bending_modulus;
+  double then = time() + dt;
+  if (then > latest * (1 - 1e-12)) then = latest; // rounding
   gauge_.filter(phi_, band_);
   extend_rates([&](std::size_t i) { return velocity(i); });
-  stepper_.predict(extension_, dt,
-                   {kappa, std::max(0.0, multipliers_.sigma + 0.5 * kappa * C * C)});
+  stepper_.predict(extension_, dt, {kappa, std::max(0.0, multipliers_[1] + 0.5 * kappa * C * C)});
   if (steps_ % steps_between_responses == 0 || dt > 1.5 * response_dt_ || 1.5 * dt < response_dt_) {
     extend_rates([&](std::size_t i) { return surface_.KM()[i]; });
-    stepper_.respond(extension_);
+    stepper_.respond(0, extension_);
+    if (constraints_.is_held(2)) {
+      extend_rates([&](std::size_t i) { return surface_.K()[i]; });
+      stepper_.respond(1, extension_);
+    }
     response_dt_ = dt;
   }
-  apply_constrained();
+  apply_constrained(then);
   error_ = step_error();
-  steps_++;
+  last_dt_ = dt;
   broken_ = true;
-  const Excess excess = measure();
-  excess_ = {memory * excess_.volume + excess.volume, memory * excess_.area + excess.area};
+  const Quantities excess = measure(then);
+  if (!(drift(then) < hopeless_drift)) return false;
+  excess_ = memory * excess_ + excess;
   Measures now = summarise(dt);
-  if (now.time > latest * (1 - 1e-12)) now.time = latest; // rounding
+  now.time = then;
   check(now);
+  steps_++;
   measures_ = now;
   broken_ = false;
-  renormalise_if_needed();
+  return true;
+}
+
+/// To the state before the step that failed, for a shorter one without history.
+void Simulation::go_back() {
+  std::ranges::copy(stepper_.before(), phi_.coefficients().begin());
+  broken_ = false;
+  band_.clear();
+  excess_.setZero();
+  measure(time());
+  stepper_.restart();
+  last_dt_ *= 0.1;
+  error_ = 0;
 }
 
 /// 2 rms |c_new - ratio c_old| / (|grad phi| h) over the nodes next to the membrane.
@@ -271,7 +415,7 @@ double Simulation::step_error() const {
   const double ratio = stepper_.step_ratio(), h = grid().spacing;
   double sum = 0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < surface_.size(); i++) {
+  for (std::size_t i = 0; i < surface_.entry().size(); i++) {
     const int s = surface_.entry()[i];
     if (std::abs(band_.distance()[s]) > h) continue;
     const int node = band_.node()[s];
@@ -283,16 +427,184 @@ double Simulation::step_error() const {
   return ratio == 0 || count == 0 ? 0 : 2 * std::sqrt(sum / double(count)) / h;
 }
 
+/// |grad phi| at the nearest points of band entries; 0 where it is not known.
+std::span<const double> Simulation::grad_of_entries() {
+  grad_.assign(band_.size(), 0);
+  for (std::size_t i = 0; i < surface_.entry().size(); i++)
+    grad_[surface_.entry()[i]] = surface_.grad()[i];
+  return grad_;
+}
+
 void Simulation::renormalise_if_needed() {
-  grad_.resize(band_.size());
-  for (std::size_t i = 0; i < surface_.size(); i++) grad_[surface_.entry()[i]] = surface_.grad()[i];
-  const GaugeRange range = gauge_range(band_, grad_);
+  const GaugeRange range = gauge_range(band_, grad_of_entries());
   if (std::max(range.greatest, 1 / range.least) < gauge_limit) return;
   if (steps_ - renormalised_ < steps_between_renormalisations) return;
   extension_.complete(range.mean, grad_);
   stepper_.rescale(gauge_.renormalise(phi_, band_, grad_, extension_, fourier_));
   renormalised_ = steps_;
-  measure();
+  measure(time());
+}
+
+// ------------------------------------------------------------------------------------------------
+// events
+
+Vec3 Simulation::in_space(Vec3 place) const {
+  for (int d = 0; d < 3; d++) place[d] += cells_[d] * grid().spacing;
+  return place;
+}
+
+void Simulation::note(Event event) {
+  event.time = time();
+  event.place = in_space(event.place);
+  events_.push_back(event);
+}
+
+/// Says once of each kind that something has become finer than the grid.
+void Simulation::note_unresolved() {
+  auto noted = [&](Event::Kind kind) {
+    return std::ranges::any_of(events_, [&](const Event& e) { return e.kind == kind; });
+  };
+  const Event now{.components_before = measures_.components,
+                  .components_after = measures_.components,
+                  .genus_before = measures_.genus,
+                  .genus_after = measures_.genus,
+                  .area_before = measures_.area,
+                  .area_cut = measures_.area,
+                  .energy_before = measures_.energy,
+                  .energy_after = measures_.energy};
+  if (!noted(Event::Kind::sharp)) {
+    std::size_t worst = 0;
+    double sharpest = 0;
+    for (std::size_t i = 0; i < surface_.size(); i++)
+      if (surface_.weight()[i] > 0 && surface_.sharpest(i) > sharpest)
+        sharpest = surface_.sharpest(worst = i);
+    if (sharpest * least_radius * grid().spacing > 1) {
+      Event e = now;
+      e.kind = Event::Kind::sharp;
+      e.place = surface_.point(worst);
+      e.size = 1 / sharpest;
+      note(e);
+    }
+  }
+  for (const bool inside : {true, false}) {
+    const Event::Kind kind = inside ? Event::Kind::thin_inside : Event::Kind::thin_outside;
+    if (noted(kind)) continue;
+    const double least = least_half_gap * grid().spacing;
+    for (const CriticalPoint& q : critical_points(phi_, band_, grad_of_entries(), least, inside)) {
+      Event e = now;
+      e.kind = kind;
+      e.place = q.place;
+      e.size = q.radius;
+      note(e);
+      break;
+    }
+  }
+}
+
+/// Places inside that the membrane is closing in on and the grid can no longer resolve.
+std::vector<Closing> Simulation::closing_places() {
+  const double h = grid().spacing;
+  const ClosingRule rule{bending_.bending_modulus, contact_.rupture_thickness};
+  std::vector<Closing> places;
+  for (CriticalPoint& q : critical_points(phi_, band_, grad_of_entries(), rule.reach(h), true)) {
+    double speed = 0, grad = 0;
+    int count = 0;
+    for (const int s : q.around) {
+      const auto at = std::ranges::lower_bound(surface_.entry(), s);
+      if (at == surface_.entry().end() || *at != s) continue;
+      const std::size_t i = std::size_t(at - surface_.entry().begin());
+      speed -= velocity(i);
+      grad += surface_.grad()[i];
+      count++;
+    }
+    if (count == 0) continue;
+    Event::Kind kind{};
+    if (rule.parts(q, speed / count, h, kind)) places.push_back({kind, std::move(q), grad / count});
+  }
+  return places;
+}
+
+void Simulation::change_topology_if_needed() {
+  const std::vector<Closing> places = closing_places();
+  Event event;
+  event.components_before = topology_.components;
+  event.genus_before = topology_.genus;
+  event.area_before = measures_.area;
+  event.energy_before = measures_.energy;
+  if (!places.empty()) {
+    event.kind = places.front().kind;
+    event.place = places.front().at.place;
+    event.size = places.front().at.radius;
+    if (!contact_.topology_changes)
+      throw RunError(fmt::format("the topology is about to change at ({:.3g}, {:.3g}, {:.3g}), "
+                                 "which contact.topology_changes forbids",
+                                 event.place[0], event.place[1], event.place[2]));
+    part(phi_, places);
+    band_.clear();
+    locate();
+    surface_.curvatures(phi_, band_);
+    event.area_cut = integrate(surface_, bending_, {}).area();
+    excess_.setZero();
+    measure(time());
+    stepper_.restart();
+    const double h = grid().spacing;
+    last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / bending_.bending_modulus);
+    const double dt = measures_.dt;
+    measures_ = summarise(0);
+    measures_.dt = dt;
+    check(measures_);
+  } else if (topology_ != Topology{measures_.components, measures_.genus}) {
+    event.area_cut = measures_.area;
+    event.kind = measures_.components > topology_.components ? Event::Kind::fission
+                 : measures_.genus > topology_.genus         ? Event::Kind::rupture
+                                                             : Event::Kind::fusion;
+  } else {
+    return;
+  }
+  event.components_after = measures_.components;
+  event.genus_after = measures_.genus;
+  event.energy_after = measures_.energy;
+  topology_ = {measures_.components, measures_.genus};
+  note(event);
+}
+
+/// Moves the box by whole cells when the membrane comes near one of its sides and has room on the
+/// other.
+void Simulation::recentre_if_needed() {
+  const double h = grid().spacing;
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const Vec3 p = surface_.point(i);
+    for (int d = 0; d < 3; d++) {
+      low[d] = std::min(low[d], p[d]);
+      high[d] = std::max(high[d], p[d]);
+    }
+  }
+  std::array<int, 3> cells{};
+  bool near = false;
+  for (int d = 0; d < 3; d++) {
+    const double side = 0.5 * grid().length(d);
+    near = near || std::min(low[d] + side, side - high[d]) < recentre_margin * h;
+    cells[d] = int(std::lround(0.5 * (low[d] + high[d]) / h));
+  }
+  if (!near || cells == std::array<int, 3>{}) return;
+  move_box(cells);
+  Event event;
+  event.kind = Event::Kind::recentred;
+  event.cells = cells;
+  event.components_before = event.components_after = measures_.components;
+  event.genus_before = event.genus_after = measures_.genus;
+  event.area_before = event.area_cut = measures_.area;
+  event.energy_before = event.energy_after = measures_.energy;
+  note(event);
+}
+
+void Simulation::move_box(const std::array<int, 3>& cells) {
+  shift(grid(), cells, phi_.coefficients());
+  stepper_.shift(cells);
+  for (int d = 0; d < 3; d++) cells_[d] += cells[d];
+  band_.clear();
+  measure(time());
 }
 
 } // namespace lamella

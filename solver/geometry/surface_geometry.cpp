@@ -14,7 +14,7 @@ constexpr double reach_inside =
 constexpr std::size_t chunk = 256;
 } // namespace
 
-void SurfaceGeometry::sample(const NarrowBand& band) {
+void SurfaceGeometry::sample(const LevelSet& phi, const NarrowBand& band) {
   grid_ = band.grid();
   const double h = grid_.spacing;
   sampled_.resize(band.size());
@@ -24,8 +24,19 @@ void SurfaceGeometry::sample(const NarrowBand& band) {
     sampled_[s] = d > -reach_inside && d < QuadratureKernel::end;
     if (sampled_[s]) entry_.push_back(int(s));
   }
-  for (auto* a : {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &weight_})
-    a->resize(size());
+  second_.find(phi, band, QuadratureKernel::begin * h, QuadratureKernel::end * h);
+  for (auto* a :
+       {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &sharpest_, &weight_})
+    a->resize(entry_.size() + second_.size());
+  const ConstPoints first = band.points(), second = second_.points();
+  for (std::size_t i = 0; i < size(); i++) {
+    const bool own = i < entry_.size();
+    const ConstPoints& p = own ? first : second;
+    const std::size_t s = own ? entry_[i] : i - entry_.size();
+    x_[i] = p.x[s];
+    y_[i] = p.y[s];
+    z_[i] = p.z[s];
+  }
 }
 
 void SurfaceGeometry::curvatures(const LevelSet& phi, NarrowBand& band) {
@@ -35,13 +46,7 @@ void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band) { evaluate(phi
 
 void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order) {
   const SplineView spline = phi.view();
-  const Points p = band.points();
   parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++) {
-      x_[i] = p.x[entry_[i]];
-      y_[i] = p.y[entry_[i]];
-      z_[i] = p.z[entry_[i]];
-    }
     const SurfaceArrays out{&phi_[begin],  &nx_[begin], &ny_[begin], &nz_[begin],
                             &grad_[begin], &KM_[begin], &K_[begin],  &lap_KM_[begin]};
     (fourth_order ? kernels().jets : kernels().curvatures)(
@@ -54,20 +59,32 @@ void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourt
 /// weighs.
 void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t end) {
   const double h = grid_.spacing, longest = 0.5 * h, KM_limit = 2 / h, K_limit = 1 / (h * h);
-  const Points p = band.points();
-  const ConstPoints node = band.positions();
+  const ConstPoints first = band.positions(), second = second_.positions();
   for (std::size_t i = begin; i < end; i++) {
-    const int s = entry_[i];
+    sharpest_[i] =
+        0.5 * std::abs(KM_[i]) + std::sqrt(std::max(0.0, 0.25 * KM_[i] * KM_[i] - K_[i]));
     KM_[i] = std::clamp(KM_[i], -KM_limit, KM_limit);
     K_[i] = std::clamp(K_[i], -K_limit, K_limit);
-    const double move = std::clamp(-phi_[i] / grad_[i], -longest, longest);
-    p.x[s] = x_[i] += move * nx_[i];
-    p.y[s] = y_[i] += move * ny_[i];
-    p.z[s] = z_[i] += move * nz_[i];
+    displace(i, std::clamp(-phi_[i] / grad_[i], -longest, longest), band);
+    const bool own = i < entry_.size();
+    const ConstPoints& node = own ? first : second;
+    const std::size_t s = own ? entry_[i] : i - entry_.size();
     const double d =
         (node.x[s] - x_[i]) * nx_[i] + (node.y[s] - y_[i]) * ny_[i] + (node.z[s] - z_[i]) * nz_[i];
     weight_[i] = QuadratureKernel::weight(d, KM_[i], K_[i], h);
   }
+}
+
+void SurfaceGeometry::displace(std::size_t i, double distance, NarrowBand& band) {
+  x_[i] += distance * nx_[i];
+  y_[i] += distance * ny_[i];
+  z_[i] += distance * nz_[i];
+  if (i >= entry_.size()) return;
+  const Points p = band.points();
+  const int s = entry_[i];
+  p.x[s] = x_[i];
+  p.y[s] = y_[i];
+  p.z[s] = z_[i];
 }
 
 } // namespace lamella

@@ -1,6 +1,7 @@
 #pragma once
 #include "grid/memory.h"
 #include "levelset/narrow_band.h"
+#include "levelset/second_sheets.h"
 
 #include <span>
 #include <vector>
@@ -9,21 +10,25 @@ namespace lamella {
 
 /// The membrane as a cloud of samples: the nearest points of the band nodes within a few spacings
 /// of it, each with the geometry of the surface there and a quadrature weight. About 5 samples a
-/// squared spacing.
+/// squared spacing. Where sheets are close there are further samples, of nodes that reach a second
+/// sheet; they have no band entry and come last.
 ///
 /// K_M = -2 and K = 1 on the unit sphere; N points outwards.
 class SurfaceGeometry {
 public:
   /// Takes the samples that the band offers.
-  void sample(const NarrowBand& band);
+  void sample(const LevelSet& phi, const NarrowBand& band);
 
   /// Normals, |grad phi|, K_M and K at the sample points (second derivatives of phi), and weights.
   void curvatures(const LevelSet& phi, NarrowBand& band);
   /// The same and Lap_s K_M (fourth derivatives).
   void jets(const LevelSet& phi, NarrowBand& band);
 
-  std::size_t size() const { return entry_.size(); }
-  /// Band index of each sample.
+  /// Moves sample i along its normal; the others stay.
+  void displace(std::size_t i, double distance, NarrowBand& band);
+
+  std::size_t size() const { return x_.size(); }
+  /// Band index of the samples that have one.
   std::span<const int> entry() const { return entry_; }
   /// 1 for the band entries that are samples, 0 for the others.
   std::span<const char> sampled() const { return sampled_; }
@@ -32,8 +37,11 @@ public:
   std::span<const double> KM() const { return KM_; }
   std::span<const double> K() const { return K_; }
   std::span<const double> lap_KM() const { return lap_KM_; }
+  /// Largest |principal curvature|, before K_M and K were limited to what the grid can carry.
+  double sharpest(std::size_t i) const { return sharpest_[i]; }
   /// int f dA = sum of weight f.
   std::span<const double> weight() const { return weight_; }
+  ConstPoints points() const { return {x_.data(), y_.data(), z_.data()}; }
   Vec3 point(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
   Vec3 normal(std::size_t i) const { return {nx_[i], ny_[i], nz_[i]}; }
 
@@ -44,7 +52,8 @@ private:
   Grid grid_;
   std::vector<int> entry_;
   std::vector<char> sampled_;
-  Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, weight_;
+  SecondSheets second_;
+  Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, sharpest_, weight_;
 };
 
 } // namespace lamella

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <span>
 
 namespace lamella {
 
@@ -36,5 +37,8 @@ struct Grid {
 
   bool operator==(const Grid&) const = default;
 };
+
+/// Moves the box under periodic nodal values: the value at node i becomes that at i + cells.
+void shift(const Grid& grid, const std::array<int, 3>& cells, std::span<double> values);
 
 } // namespace lamella

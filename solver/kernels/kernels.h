@@ -42,7 +42,8 @@ struct SpectralRow {
   double stiffness;         ///< implicit symbol: dt (stiffness k^4 + tension k^2)
   double tension;
   double blend;         ///< z0: modes with implicit symbol far above it take Euler
-  double least_history; ///< share of SBDF2 that even the stiffest modes keep
+  double least_history; ///< share of SBDF2 that stiff modes keep
+  double fade;          ///< z1: beyond it modes lose that too
 };
 
 struct Kernels {
@@ -64,6 +65,10 @@ struct Kernels {
 
   /// All of SurfaceArrays, from derivatives up to order 4.
   void (*jets)(const SplineView& spline, std::size_t n, ConstPoints p, const SurfaceArrays& out);
+
+  /// Value, gradient (x, y, z) and Hessian (xx, yy, zz, xy, xz, yz) at points: out has ten arrays
+  /// of n numbers, one after the other.
+  void (*taylor)(const SplineView& spline, std::size_t n, ConstPoints p, double* out);
 
   /// Quasi-interpolant of nodal data: cubic B-spline with the data as coefficients, at points.
   void (*cubic)(const SplineView& data, std::size_t n, ConstPoints p, double* out);

@@ -104,32 +104,34 @@ void nodal_plane(const SplineView& s, int k, double* scratch, double* out) {
 
 constexpr double longest_step = 0.7; // in spacings
 
-/// Newton step of the constrained nearest point, (I + lambda H) dp + g dlambda = (x - p) - lambda g
-/// and g.dp = -f; where that system is not definite (near the medial axis), the gradient step onto
-/// {f = 0}.
-LAMELLA_INLINE void newton_step(const V8* d, const V8* x, const V8* p, V8& lambda, bool first,
-                                V8* step) {
+/// Newton step of the nearest point, whose unknowns are e = x - p along the surface (to become 0)
+/// and f: (I + lambda H_t) dp = e_t + dn (n - lambda H_tn), dn = -f / |g|, lambda = e.n / |g|, with
+/// H_t the Hessian in the tangent plane. The determinant is (1 - d k1) (1 - d k2), whatever phi
+/// does across the surface. Where it is small (near the focal points), the step dn alone.
+LAMELLA_INLINE void newton_step(const V8* d, const V8* x, const V8* p, V8* step) {
   constexpr const auto& s = derivative_index<2>.slot;
   const V8 f = d[s[0][0][0]], g[3] = {d[s[1][0][0]], d[s[0][1][0]], d[s[0][0][1]]};
-  const V8 g2 = dot(g, g) + 1e-300;
+  const V8 inv_grad = 1.0 / square_root(dot(g, g) + 1e-300), dn = -f * inv_grad;
+  const V8 n[3] = {g[0] * inv_grad, g[1] * inv_grad, g[2] * inv_grad};
   const V8 e[3] = {x[0] - p[0], x[1] - p[1], x[2] - p[2]};
-  if (first) lambda = dot(e, g) / g2;
-  Symmetric m = hessian<2>(d);
-  m = {1.0 + lambda * m.xx, 1.0 + lambda * m.yy, 1.0 + lambda * m.zz,
-       lambda * m.xy,       lambda * m.xz,       lambda * m.yz};
+  const V8 en = dot(e, n), lambda = en * inv_grad;
+  const Symmetric H = hessian<2>(d);
+  V8 Hn[3], t[3];
+  H.apply(n, Hn);
+  const V8 nHn = dot(n, Hn);
+  for (int c = 0; c < 3; c++) t[c] = Hn[c] - 0.5 * nHn * n[c]; // H_t = H - n t - t n
+  const Symmetric m = {
+      1.0 + lambda * (H.xx - 2.0 * n[0] * t[0]),   1.0 + lambda * (H.yy - 2.0 * n[1] * t[1]),
+      1.0 + lambda * (H.zz - 2.0 * n[2] * t[2]),   lambda * (H.xy - n[0] * t[1] - n[1] * t[0]),
+      lambda * (H.xz - n[0] * t[2] - n[2] * t[0]), lambda * (H.yz - n[1] * t[2] - n[2] * t[1])};
   const Symmetric cof = m.cofactors();
   const V8 det = m.xx * cof.xx + m.xy * cof.xy + m.xz * cof.xz;
-  V8 r[3], u[3], w[3];
-  for (int c = 0; c < 3; c++) r[c] = e[c] - lambda * g[c];
+  V8 r[3], u[3];
+  for (int c = 0; c < 3; c++) r[c] = e[c] - en * n[c] + dn * (n[c] - lambda * (Hn[c] - nHn * n[c]));
   cof.apply(r, u);
-  cof.apply(g, w);
-  const V8 gw = dot(g, w);
-  const Mask8 regular = (splat(0.05) < det) & (0.02 * g2 < gw);
-  const V8 dlambda = (dot(g, u) + f * det) / select(regular, gw, splat(1));
+  const Mask8 regular = splat(0.05) < det;
   const V8 inv_det = 1.0 / select(regular, det, splat(1));
-  for (int c = 0; c < 3; c++)
-    step[c] = select(regular, (u[c] - dlambda * w[c]) * inv_det, -f / g2 * g[c]);
-  lambda = select(regular, lambda + dlambda, lambda);
+  for (int c = 0; c < 3; c++) step[c] = select(regular, u[c] * inv_det, dn * n[c]);
 }
 
 /// Last gradient step onto {f = 0}; lanes that would need more than half a spacing go back to
@@ -151,7 +153,7 @@ void closest_points(const SplineView& s, std::size_t n, ConstPoints x, Points po
   const double h = 1 / s.inv_spacing;
   for (std::size_t first = 0; first < n; first += 8) {
     alignas(64) double q[3][8];
-    V8 px[3], pp[3], start[3], length = splat(0), lambda = splat(0);
+    V8 px[3], pp[3], start[3], length = splat(0);
     gather(x, first, n, q);
     for (int c = 0; c < 3; c++) px[c] = load(q[c]);
     gather({points.x, points.y, points.z}, first, n, q);
@@ -159,7 +161,7 @@ void closest_points(const SplineView& s, std::size_t n, ConstPoints x, Points po
     for (int it = 0; it < iterations; it++) {
       V8 d[derivative_index<2>.count], step[3];
       derivatives<2>(s, q, d);
-      newton_step(d, px, pp, lambda, it == 0, step);
+      newton_step(d, px, pp, step);
       length = square_root(dot(step, step));
       const V8 longest = splat(longest_step * h);
       const V8 clip = select(longest < length, longest / length, splat(1));
@@ -262,6 +264,28 @@ void jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceArrays
   }
 }
 
+void taylor(const SplineView& s, std::size_t n, ConstPoints p, double* out) {
+  constexpr const auto& slot = derivative_index<2>.slot;
+  for (std::size_t first = 0; first < n; first += 8) {
+    alignas(64) double q[3][8];
+    V8 d[derivative_index<2>.count];
+    gather(p, first, n, q);
+    derivatives<2>(s, q, d);
+    const Symmetric H = hessian<2>(d);
+    const V8 all[10] = {d[slot[0][0][0]],
+                        d[slot[1][0][0]],
+                        d[slot[0][1][0]],
+                        d[slot[0][0][1]],
+                        H.xx,
+                        H.yy,
+                        H.zz,
+                        H.xy,
+                        H.xz,
+                        H.yz};
+    for (int m = 0; m < 10; m++) put(out + m * n, first, n, all[m]);
+  }
+}
+
 // ---------------------------------------------------------------------------------- cubic
 // quasi-interpolant
 
@@ -297,10 +321,11 @@ void spectral_row(const SpectralRow& row, double* __restrict rate, double* __res
                   double* __restrict increment_old, const double* __restrict correction,
                   double correction_factor) {
   const double w = row.ratio, gain = (1 + 2 * w) / (1 + w) - 1, memory = w * w / (1 + w),
-               inv_z0 = 1 / row.blend;
+               inv_z0 = 1 / row.blend, inv_z1 = 1 / row.fade;
   for (int e = 0; e < 2 * row.modes; e++) {
     const double k2 = row.kx2[e] + row.k2, z = row.dt * k2 * (row.stiffness * k2 + row.tension);
-    const double theta = row.least_history + (1 - row.least_history) / (1 + z * inv_z0);
+    const double theta =
+        row.least_history / (1 + z * inv_z1) + (1 - row.least_history) / (1 + z * inv_z0);
     const double r = rate[e] * row.scale * row.inv_symbol[e];
     const double last = increment_old[e] + correction_factor * correction[e];
     const double d =
@@ -330,6 +355,7 @@ const Kernels table = {LAMELLA_STRING(LAMELLA_ISA),
                        closest_points,
                        curvatures,
                        jets,
+                       taylor,
                        cubic,
                        spectral_row,
                        euler_row};

@@ -10,6 +10,8 @@ namespace lamella {
 namespace {
 
 constexpr double taper_start = 2.5; // spacings
+constexpr double lost = 0.5;        // spacings; a Newton step longer than this follows no sheet
+constexpr double out_of_reach = 1e300;
 constexpr int unset = -1;
 constexpr std::size_t chunk = 512;
 
@@ -41,13 +43,25 @@ NarrowBand::NarrowBand(const Grid& grid, double half_width)
       plane_begin_(grid.nz() + 1, 0) {}
 
 void NarrowBand::update(const LevelSet& phi) {
-  refresh(phi);
-  repair(phi);
-  grow(phi);
+  // Marching from neighbour to neighbour, a new band takes some nodes to the wrong sheet first.
+  const int passes = size() == 0 ? 2 : 1;
+  for (int pass = 0; pass < passes; pass++) {
+    refresh(phi);
+    repair(phi);
+    grow(phi);
+  }
   finish(phi);
 }
 
-/// One Newton step for every node that was in the band.
+void NarrowBand::clear() {
+  for (const int n : node_) slot_[n] = unset;
+  for (auto* array : {&x_, &y_, &z_, &px_, &py_, &pz_, &distance_, &taper_}) array->clear();
+  node_.clear();
+  std::ranges::fill(plane_begin_, 0);
+}
+
+/// One Newton step for every node that was in the band. Points that it would move far have lost
+/// their sheet, which has vanished; their nodes are out of reach until another sheet claims them.
 void NarrowBand::refresh(const LevelSet& phi) {
   parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
     double step[chunk];
@@ -55,7 +69,9 @@ void NarrowBand::refresh(const LevelSet& phi) {
                              {&px_[begin], &py_[begin], &pz_[begin]}, 1, false, step);
     for (std::size_t s = begin; s < end; s++)
       distance_[s] =
-          std::sqrt(square(x_[s] - px_[s]) + square(y_[s] - py_[s]) + square(z_[s] - pz_[s]));
+          step[s - begin] > lost * grid_.spacing
+              ? out_of_reach
+              : std::sqrt(square(x_[s] - px_[s]) + square(y_[s] - py_[s]) + square(z_[s] - pz_[s]));
   });
 }
 

@@ -20,6 +20,9 @@ public:
   /// none.
   void update(const LevelSet& phi);
 
+  /// Forget everything: the next update() starts anew.
+  void clear();
+
   const Grid& grid() const { return grid_; }
   std::size_t size() const { return node_.size(); }
   std::span<const int> node() const { return node_; }
@@ -35,7 +38,6 @@ public:
   Points points() { return {px_.data(), py_.data(), pz_.data()}; }
   /// |x - p|, negative inside; lengths.
   std::span<const double> distance() const { return distance_; }
-
   /// 1 on the membrane and near it, falling smoothly to 0 at the edge of the band.
   std::span<const double> taper() const { return taper_; }
 

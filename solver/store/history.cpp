@@ -41,7 +41,7 @@ Row row_of(Measures& m) {
           {"int_KM2", &m.int_KM2},
           {"P", &m.P},
           {"sigma", &m.sigma},
-          {"sigma_DA", &m.sigma_DA},
+          {"K_multiplier", &m.K_multiplier},
           {"A", &m.area},
           {"V", &m.volume},
           {"v", &m.reduced_volume},

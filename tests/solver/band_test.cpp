@@ -1,5 +1,4 @@
 // The narrow band, extension, components, Fourier rows, step control.
-#include "dynamics/multipliers.h"
 #include "dynamics/step_control.h"
 #include "levelset/extension.h"
 #include "levelset/topology.h"
@@ -153,22 +152,6 @@ TEST(Fourier, WaveNumbersDifferentiate) {
         }
       });
   EXPECT_LT(worst, 1e-10);
-}
-
-TEST(Multipliers, ChangeVolumeAndAreaAsAsked) {
-  const StartSurface s(ellipsoid({0.6, 0.45, 0.35}), Grid::cube(48, 1));
-  const SurfaceIntegrals sums = integrate(s.geometry, {}, {});
-  const Multipliers u = displacement_for(sums, 1e-3, -2e-3);
-  EXPECT_NEAR(u.P * sums.area() + u.sigma * sums.int_KM(), 1e-3, 1e-7);
-  EXPECT_NEAR(-(u.P * sums.int_KM() + u.sigma * sums.int_KM2()), -2e-3, 1e-7);
-}
-
-TEST(Multipliers, StaySmallOnASphere) {
-  const StartSurface s(sphere(0.6), Grid::cube(48, 1));
-  const SurfaceIntegrals sums = integrate(s.geometry, {}, {});
-  const Multipliers u = displacement_for(sums, 1e-4, 1e-4);
-  EXPECT_LT(std::abs(u.P), 1e-2);
-  EXPECT_LT(std::abs(u.sigma), 1e-2);
 }
 
 TEST(StepControl, GrowsAndShrinksWithinBounds) {

@@ -22,7 +22,7 @@ struct StartSurface {
   void measure() {
     phi.update_nodal();
     band.update(phi);
-    geometry.sample(band);
+    geometry.sample(phi, band);
     geometry.jets(phi, band);
   }
 };

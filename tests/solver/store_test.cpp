@@ -296,7 +296,7 @@ protected:
     Measures m;
     double value = time;
     for (double* x : {&m.time, &m.dt, &m.energy, &m.bending_energy, &m.int_KM2, &m.P, &m.sigma,
-                      &m.sigma_DA, &m.area, &m.volume, &m.reduced_volume, &m.area_difference,
+                      &m.K_multiplier, &m.area, &m.volume, &m.reduced_volume, &m.area_difference,
                       &m.area_drift, &m.volume_drift, &m.max_speed})
       *x = value, value = -1.01 * value - 1e-7;
     m.components = 2;
@@ -315,7 +315,7 @@ protected:
 };
 
 const std::string history_header =
-    "t,dt,energy,bending_energy,int_KM2,P,sigma,sigma_DA,A,V,v,Da,"
+    "t,dt,energy,bending_energy,int_KM2,P,sigma,K_multiplier,A,V,v,Da,"
     "dA_rel,dV_rel,max_speed,components,genus";
 
 TEST_F(HistoryStore, KeepsRowsToTwelveDigits) {

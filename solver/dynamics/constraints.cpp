@@ -1,0 +1,158 @@
+#include "dynamics/constraints.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lamella {
+
+namespace {
+using std::numbers::pi;
+
+constexpr double rounding = 1e-12;       // of times, relative
+constexpr double change_per_step = 1e-3; // of a reduced value that is led somewhere
+const Eigen::Vector3d to_quantity{1, -1, -2};
+
+double approach(double from, double to, double longest) {
+  return from + std::clamp(to - from, -longest, longest);
+}
+} // namespace
+
+Quantities quantities(const SurfaceIntegrals& integrals) {
+  return {integrals.volume, integrals.area(), integrals.int_KM()};
+}
+
+Eigen::Matrix3d effect_of_functions(const SurfaceIntegrals& integrals) {
+  return to_quantity.asDiagonal() * integrals.gram;
+}
+
+Constraints::Constraints(const Scene& scene)
+    : courses_{{{scene.volume.constraint, scene.volume.ramp},
+                {Constraint::fixed, {}},
+                {scene.area_difference.constraint, scene.area_difference.ramp}}},
+      given_{scene.volume.pressure, 0, scene.area_difference.multiplier} {
+  for (int i = 0; i < 3; i++) {
+    held_[i] = courses_[i].constraint != Constraint::free;
+    if (held_[i]) indices_.push_back(i);
+  }
+}
+
+void Constraints::begin(const Quantities& start) {
+  const double radius = std::sqrt(start[1] / (4 * pi));
+  courses_[0].factor = 4. / 3 * pi * radius * radius * radius;
+  courses_[2].factor = -8 * pi * radius;
+  for (int i = 0; i < 3; i++) courses_[i].start = start[i] / courses_[i].factor;
+}
+
+double Constraints::Course::at(double time) const {
+  double value = start;
+  if (constraint == Constraint::ramped)
+    for (std::size_t i = 0; i < ramp.targets.size() && time > ramp.start_times[i]; i++) {
+      const double end =
+          i + 1 < ramp.targets.size() ? std::min(time, ramp.start_times[i + 1]) : time;
+      value = approach(value, ramp.targets[i], ramp.rate * (end - ramp.start_times[i]));
+    }
+  return value;
+}
+
+double Constraints::Course::end_time() const {
+  if (constraint != Constraint::ramped) return 0;
+  const double set_out = ramp.start_times.back();
+  return set_out + std::abs(ramp.targets.back() - at(set_out)) / ramp.rate;
+}
+
+Quantities Constraints::target(double time) const {
+  Quantities q;
+  for (int i = 0; i < 3; i++) q[i] = courses_[i].factor * courses_[i].at(time);
+  return q;
+}
+
+Quantities Constraints::rate(double time) const {
+  Quantities q = Quantities::Zero();
+  for (int i = 0; i < 3; i++) {
+    const Course& c = courses_[i];
+    if (c.constraint != Constraint::ramped) continue;
+    const double soon = 1e-6 * change_per_step / c.ramp.rate;
+    const double ahead = (c.at(time + soon) - c.at(time)) / soon;
+    q[i] = c.factor * std::round(ahead / c.ramp.rate) * c.ramp.rate;
+  }
+  return q;
+}
+
+bool Constraints::ramping(double time) const {
+  return std::ranges::any_of(courses_, [&](const Course& c) { return time < c.end_time(); });
+}
+
+/// Times at which a ramp begins or ends.
+std::vector<double> Constraints::turning_points() const {
+  std::vector<double> points;
+  for (const Course& c : courses_) {
+    if (c.constraint != Constraint::ramped) continue;
+    for (std::size_t i = 0; i < c.ramp.targets.size(); i++) {
+      const double begin = c.ramp.start_times[i];
+      points.push_back(begin);
+      points.push_back(begin + std::abs(c.ramp.targets[i] - c.at(begin)) / c.ramp.rate);
+    }
+  }
+  return points;
+}
+
+bool Constraints::turns_at(double time) const {
+  return std::ranges::any_of(
+      turning_points(), [&](double t) { return std::abs(t - time) <= rounding * std::abs(time); });
+}
+
+double Constraints::longest_step(double time) const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const double t : turning_points())
+    if (t > time * (1 + rounding)) longest = std::min(longest, t - time);
+  const Quantities moving = rate(time);
+  for (int i = 0; i < 3; i++)
+    if (moving[i] != 0) longest = std::min(longest, change_per_step / courses_[i].ramp.rate);
+  return longest;
+}
+
+Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b) {
+  constexpr double damping = 1e-4;
+  const Eigen::VectorXd row_scale = m.rowwise().norm().cwiseInverse();
+  Eigen::MatrixXd scaled = row_scale.asDiagonal() * m;
+  const Eigen::VectorXd column_scale = scaled.colwise().norm().transpose().cwiseInverse();
+  scaled = scaled * column_scale.asDiagonal();
+  const Eigen::MatrixXd normal = scaled.transpose() * scaled +
+                                 damping * damping * Eigen::MatrixXd::Identity(m.cols(), m.cols());
+  return column_scale.cwiseProduct(normal.inverse() *
+                                   (scaled.transpose() * row_scale.cwiseProduct(b)));
+}
+
+Eigen::Vector3d Constraints::combination(const Eigen::Matrix3d& effect,
+                                         const Quantities& change) const {
+  const Eigen::VectorXd x = solve_scaled(effect(indices_, indices_), change(indices_));
+  Eigen::Vector3d all = Eigen::Vector3d::Zero();
+  all(indices_) = x;
+  return all;
+}
+
+Multipliers Constraints::multipliers(const SurfaceIntegrals& integrals,
+                                     const Quantities& rate) const {
+  Eigen::Vector3d given = given_;
+  for (const int i : indices_) given[i] = 0;
+  const Eigen::Vector3d moments =
+      integrals.variation + rate.cwiseQuotient(to_quantity) - integrals.gram * given;
+  return given + combination(integrals.gram, moments);
+}
+
+double Constraints::drift(const Quantities& now, double time) const {
+  const Quantities wanted = target(time);
+  double worst = 0;
+  for (const int i : indices_) worst = std::max(worst, std::abs(now[i] / wanted[i] - 1));
+  return worst;
+}
+
+double Constraints::potential(const Quantities& now) const {
+  return (held_[0] ? 0 : -given_[0] * now[0]) + (held_[2] ? 0 : 0.5 * given_[2] * now[2]);
+}
+
+} // namespace lamella

@@ -1,0 +1,87 @@
+#pragma once
+#include "dynamics/surface_integrals.h"
+#include "scene/scene.h"
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace lamella {
+
+/// Volume, area, and int K_M dA, or a change of them.
+using Quantities = Eigen::Vector3d;
+Quantities quantities(const SurfaceIntegrals& integrals);
+
+/// Coefficients of 1, K_M, K in the normal velocity: P, sigma, 2 h sigma_DA (Eq. 80).
+using Multipliers = Eigen::Vector3d;
+
+/// First-order change of the quantities by a normal displacement u, from int u dA, int K_M u dA,
+/// int K u dA.
+inline Quantities change_from(const Eigen::Vector3d& moments) {
+  return {moments[0], -moments[1], -2 * moments[2]};
+}
+
+/// Changes of the quantities by the displacements 1, K_M, K, a column each.
+Eigen::Matrix3d effect_of_functions(const SurfaceIntegrals& integrals);
+
+/// Which quantities are held, where they are led to, and the multipliers of those that are free.
+///
+/// Every vector has a component for each of the three; those of free quantities do not count.
+class Constraints {
+public:
+  explicit Constraints(const Scene& scene);
+
+  /// What the start has; targets set out from there.
+  void begin(const Quantities& start);
+
+  bool is_held(int quantity) const { return held_[quantity]; }
+  std::span<const int> held() const { return indices_; }
+
+  Quantities target(double time) const;
+  /// d target / dt.
+  Quantities rate(double time) const;
+  /// Some target still moves or has yet to set out.
+  bool ramping(double time) const;
+  /// A ramp begins or ends at this time.
+  bool turns_at(double time) const;
+  /// Longest step that follows the ramps, and does not pass over the beginning or end of one.
+  double longest_step(double time) const;
+
+  /// The multipliers for which the velocity -F + P + sigma K_M + 2 h sigma_DA K changes the held
+  /// quantities at their rates.
+  Multipliers multipliers(const SurfaceIntegrals& integrals, const Quantities& rate) const;
+
+  /// Factors of the held quantities' directions that bring about a change; `effect` has a column of
+  /// changes for each direction.
+  Eigen::Vector3d combination(const Eigen::Matrix3d& effect, const Quantities& change) const;
+
+  /// Largest relative deviation of a held quantity from its target.
+  double drift(const Quantities& now, double time) const;
+
+  /// Energy of the given multipliers: -P V, (2 h sigma_DA / 2) int K_M dA.
+  double potential(const Quantities& now) const;
+
+private:
+  struct Course {
+    Constraint constraint;
+    Ramp ramp;
+    double factor = 1; ///< the quantity for a reduced value of 1
+    double start = 0;
+    double at(double time) const;
+    double end_time() const;
+  };
+  std::vector<double> turning_points() const;
+
+  std::array<Course, 3> courses_;
+  std::array<bool, 3> held_{};
+  std::vector<int> indices_;
+  Multipliers given_ = Multipliers::Zero();
+};
+
+/// Solves m x = b (size 1 to 3) with rows and columns scaled to unit norm and directions of
+/// singular value below 1e-4 damped out: on a sphere volume and area say the same, and what they
+/// differ by is noise. (1e-4 is about the relative variance of K_M at a reduced volume of 0.9999.)
+Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b);
+
+} // namespace lamella

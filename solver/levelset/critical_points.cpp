@@ -1,0 +1,129 @@
+#include "levelset/critical_points.h"
+
+#include "parallel.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamella {
+
+namespace {
+
+constexpr double flat = 0.75;         // of the slope on the membrane; less is near a critical point
+constexpr double search_radius = 1.5; // spacings from the node where the search begins
+constexpr double longest_step = 0.6;  // spacings
+constexpr double same = 0.5;          // spacings between points that are one
+constexpr int iterations = 8;
+
+struct Taylor {
+  double value;
+  Eigen::Vector3d gradient;
+  Eigen::Matrix3d hessian;
+};
+
+Taylor taylor_at(const LevelSet& phi, const Eigen::Vector3d& x) {
+  double o[10];
+  kernels().taylor(phi.view(), 1, {&x[0], &x[1], &x[2]}, o);
+  Taylor t{o[0], {o[1], o[2], o[3]}, {}};
+  t.hessian << o[4], o[7], o[8], o[7], o[5], o[9], o[8], o[9], o[6];
+  return t;
+}
+
+double slope_at_node(const LevelSet& phi, int node) {
+  const Grid& grid = phi.grid();
+  const int stride[3] = {1, grid.nx(), grid.nx() * grid.ny()};
+  double sum = 0;
+  for (int d = 0; d < 3; d++) {
+    const double difference = phi.nodal()[node + stride[d]] - phi.nodal()[node - stride[d]];
+    sum += difference * difference;
+  }
+  return std::sqrt(sum) / (2 * grid.spacing);
+}
+
+/// Nodes from which a critical point may be near.
+std::vector<int> candidates(const LevelSet& phi, const NarrowBand& band,
+                            std::span<const double> grad, double reach, bool inside) {
+  constexpr std::size_t chunk = 4096;
+  std::vector<std::vector<int>> found((band.size() + chunk - 1) / chunk);
+  parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; s++) {
+      const double d = inside ? -band.distance()[s] : band.distance()[s];
+      if (d > 0 && d < reach && grad[s] > 0 && slope_at_node(phi, band.node()[s]) < flat * grad[s])
+        found[begin / chunk].push_back(band.node()[s]);
+    }
+  });
+  std::vector<int> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// Newton's method for grad phi = 0; false if there is no such point near the start.
+bool find_near(const LevelSet& phi, const Eigen::Vector3d& start, Eigen::Vector3d& x, Taylor& t) {
+  const double h = phi.grid().spacing;
+  x = start;
+  for (int i = 0; i < iterations; i++) {
+    t = taylor_at(phi, x);
+    Eigen::Vector3d step = -t.hessian.inverse() * t.gradient;
+    if (!step.allFinite()) return false;
+    const double length = step.norm();
+    if (length > longest_step * h) step *= longest_step * h / length;
+    x += step;
+    if ((x - start).norm() > search_radius * h) return false;
+    if (length < 1e-3 * h) {
+      t = taylor_at(phi, x);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Band entries of the 4^3 nodes around a point.
+std::vector<int> entries_around(const NarrowBand& band, const Eigen::Vector3d& x) {
+  const Grid& grid = band.grid();
+  int base[3];
+  for (int d = 0; d < 3; d++) base[d] = int(std::floor((x[d] - grid.origin(d)) / grid.spacing)) - 1;
+  std::vector<int> entries;
+  for (int k = base[2]; k < base[2] + 4; k++)
+    for (int j = base[1]; j < base[1] + 4; j++)
+      for (int i = base[0]; i < base[0] + 4; i++) {
+        if (std::min({i, j, k}) < 0 || i >= grid.nx() || j >= grid.ny() || k >= grid.nz()) continue;
+        const int s = band.slot(grid.index(i, j, k));
+        if (s >= 0) entries.push_back(s);
+      }
+  return entries;
+}
+
+} // namespace
+
+std::vector<CriticalPoint> critical_points(const LevelSet& phi, const NarrowBand& band,
+                                           std::span<const double> grad, double reach,
+                                           bool inside) {
+  const double h = phi.grid().spacing;
+  std::vector<CriticalPoint> points;
+  for (const int node : candidates(phi, band, grad, reach, inside)) {
+    const Vec3 start = phi.grid().position(node);
+    Eigen::Vector3d x;
+    Taylor t;
+    if (!find_near(phi, {start[0], start[1], start[2]}, x, t) || (t.value < 0) != inside) continue;
+    const auto near = [&](const CriticalPoint& q) {
+      return (Eigen::Vector3d(q.place[0], q.place[1], q.place[2]) - x).norm() < same * h;
+    };
+    if (std::ranges::any_of(points, near)) continue;
+    CriticalPoint q{{x[0], x[1], x[2]}, t.value, {}, {}, 1e300, entries_around(band, x)};
+    for (const int s : q.around) {
+      const ConstPoints p = band.points();
+      q.radius = std::min(q.radius, (Eigen::Vector3d(p.x[s], p.y[s], p.z[s]) - x).norm());
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(t.hessian);
+    for (int d = 0; d < 3; d++) {
+      q.stiffness[d] = eigen.eigenvalues()[d];
+      q.across[d] = eigen.eigenvectors()(d, 2);
+    }
+    if (q.radius < reach) points.push_back(std::move(q));
+  }
+  return points;
+}
+
+} // namespace lamella
