@@ -1,8 +1,12 @@
 #pragma once
 #include "program.h"
 
+#include "store/frame.h"
+#include "store/history.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 #include <sys/mount.h>
@@ -29,6 +33,32 @@ inline std::set<std::string> names_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     names.insert(entry.path().filename().string());
   return names;
+}
+
+inline std::vector<fs::path> frames_of(const fs::path& run) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(run / "frames"))
+    if (entry.path().extension() == ".hdf") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+/// A run of about a second's tenth, without pictures.
+inline Arguments quick(const Arguments& more = {}) {
+  return words("run fig3_oblate --no-pictures --set grid.nodes=32 --set run.end_time=2e-5 "
+               "--set output.frames=5",
+               more);
+}
+
+/// Rows in order, frames that can be read, nothing half-written.
+inline std::vector<Measures> check_stored(const fs::path& run) {
+  const std::vector<Measures> history = read_history(run / "history.csv");
+  for (std::size_t i = 1; i < history.size(); ++i)
+    EXPECT_GT(history[i].time, history[i - 1].time) << "row " << i;
+  for (const fs::path& file : frames_of(run)) EXPECT_NO_THROW(read_frame(file)) << file;
+  for (const fs::path& folder : {run, run / "frames"})
+    for (const std::string& name : names_in(folder)) EXPECT_FALSE(name.starts_with(".")) << name;
+  return history;
 }
 
 /// Calls of the program in a new folder work(), which is gone afterwards.
