@@ -70,7 +70,7 @@ std::string summary(const Scene& scene, const Course& course, std::span<const Ev
   row("", "int K_M^2 dA", start.int_KM2, end.int_KM2);
   row("pressure", "P", start.P, end.P);
   row("tension", "sigma", start.sigma, end.sigma);
-  row("multiplier of Da", "K coefficient", start.sigma_DA, end.sigma_DA);
+  row("multiplier of Da", "K coefficient", start.K_multiplier, end.K_multiplier);
   row("area", "A", start.area, end.area, "fixed");
   row("volume", "V", start.volume, end.volume, word_for(scene.volume.constraint));
   row("reduced volume", "v", start.reduced_volume, end.reduced_volume);

@@ -21,7 +21,7 @@ std::optional<std::string> reason_to_stop(Stopping& stopping, const Simulation& 
                                           Clock::time_point begin) {
   const auto changes = std::ranges::count_if(sim.events(), &Event::changes_topology);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  return stopping.reason(sim.measures(), int(changes), false, seconds);
+  return stopping.reason(sim.measures(), int(changes), sim.ramping(), seconds);
 }
 
 } // namespace

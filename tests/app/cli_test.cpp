@@ -99,7 +99,7 @@ TEST_F(Cli, fills_the_folder) {
   EXPECT_THAT(names_in(run),
               ElementsAre("events.csv", "frames", "history.csv", "scene.toml", "summary.txt"));
   EXPECT_THAT(text_of(run / "history.csv"),
-              StartsWith("t,dt,energy,bending_energy,int_KM2,P,sigma,sigma_DA,A,V,v,Da,dA_rel,"
+              StartsWith("t,dt,energy,bending_energy,int_KM2,P,sigma,K_multiplier,A,V,v,Da,dA_rel,"
                          "dV_rel,max_speed,components,genus"));
 
   const std::vector<Measures> history = check_stored(run);
