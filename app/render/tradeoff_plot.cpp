@@ -16,6 +16,7 @@ namespace {
 using namespace plot_page;
 
 constexpr double dot = 14, ring = 23;
+constexpr double air = 0.12, name_room = 0.25; ///< beside the trades, in parts of their extent
 constexpr Color white{255, 255, 255}, beyond{214, 214, 220};
 
 /// From coarse to fine grids: from a pale to a dark shade of the membrane's colour.
@@ -37,12 +38,12 @@ struct LogAxis {
   }
 };
 
-/// The values with some air, at least half a decade.
-LogAxis axis_of(std::span<const Trade> trades, double Trade::*value) {
+/// The values with a share of air below and above, at least half a decade.
+LogAxis axis_of(std::span<const Trade> trades, double Trade::*value, double below, double above) {
   const auto [least, most] = std::ranges::minmax(trades, {}, value);
   const double low = std::log10(least.*value), high = std::log10(most.*value);
-  const double air = std::max(0.12 * (high - low), 0.25 - (high - low) / 2);
-  return {low - air, high + air};
+  const double extent = std::max(high - low, 0.4), middle = (low + high) / 2;
+  return {middle - (0.5 + below) * extent, middle + (0.5 + above) * extent};
 }
 
 std::string grid_label(const std::array<int, 3>& nodes) {
@@ -53,8 +54,8 @@ std::string grid_label(const std::array<int, 3>& nodes) {
 class TradeoffPlot {
 public:
   explicit TradeoffPlot(std::vector<Trade> trades)
-      : trades_(std::move(trades)), time_(axis_of(trades_, &Trade::seconds)),
-        error_(axis_of(trades_, &Trade::error)) {
+      : trades_(std::move(trades)), time_(axis_of(trades_, &Trade::seconds, name_room, air)),
+        error_(axis_of(trades_, &Trade::error, air, air)) {
     const Ticks ticks = log_ticks(error_.low, error_.high);
     time_.begin = left_side(ticks.labels), time_.end = right;
     error_.begin = bottom, error_.end = top;

@@ -1,6 +1,7 @@
 #include "tradeoff/sweep.h"
 
 #include "dynamics/simulation.h"
+#include "dynamics/stopping.h"
 #include "error.h"
 #include "scene/preset.h"
 
@@ -34,12 +35,24 @@ std::vector<double> tolerances(const Scene& scene, const std::vector<double>& gi
   return all;
 }
 
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
 /// Throws RunError, SceneError and what memory throws.
 void advance(Trial& trial, const std::function<bool(double time)>& watch) {
+  const auto begin = Clock::now();
   validate(trial.scene);
   Simulation sim(trial.scene);
+  Stopping stopping(trial.scene.stop);
+  const auto goes_on = [&] {
+    const auto changes = std::ranges::count_if(sim.events(), &Event::changes_topology);
+    return sim.time() < trial.scene.end_time &&
+           !stopping.reason(sim.measures(), int(changes), sim.ramping(), seconds_since(begin)) &&
+           watch(sim.time());
+  };
   trial.history.push_back(sim.measures());
-  while (sim.time() < trial.scene.end_time && watch(sim.time())) {
+  while (goes_on()) {
     sim.step(trial.scene.end_time);
     trial.history.push_back(sim.measures());
   }
@@ -97,7 +110,7 @@ Trial run_trial(const Scene& scene, const std::function<bool(double time)>& watc
   } catch (const std::bad_alloc&) {
     trial.stopped = "not enough memory";
   }
-  trial.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  trial.seconds = seconds_since(begin);
   return trial;
 }
 

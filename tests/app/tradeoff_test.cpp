@@ -196,6 +196,14 @@ TEST(Sweep, goes_on_after_a_run_that_cannot) {
   EXPECT_THAT(tradeoff_csv(std::vector{trial}), HasSubstr(",,,,,,,,,0,\"[shape] semi_axis: "));
 }
 
+TEST(Sweep, ends_runs_where_the_scene_says) {
+  const Scene scene = builtin_scene(
+      "fig3_oblate", std::vector<std::string>{"grid.nodes=32", "stop.residual_force=5e3"});
+  const Trial trial = run_trial(scene, [](double) { return true; });
+  EXPECT_EQ(trial.stopped, "");
+  EXPECT_LT(trial.history.back().time, scene.end_time / 10);
+}
+
 // --------------------------------------------------------------------------------------- command
 
 Arguments small_sweep(const Arguments& more = {}) {
