@@ -40,14 +40,18 @@ constexpr int steps_between_responses = 4;
 constexpr double recentre_margin = 3.5;
 // Smaller radii of curvature and half-widths of gaps are reported as unresolved.
 constexpr double least_radius = 0.75, least_half_gap = 0.8;
-constexpr int most_failures = 8;      // of a step, each time ten times shorter
-constexpr double restart_step = 0.03; // after a change of topology; h^4 / kappa
+constexpr int most_cuts = 16;             // at one time
+constexpr int steps_between_attempts = 5; // to part where it would have raised the energy
+constexpr double energy_jump = 0.01;      // of the bending energy; more in a step is a failure
+constexpr int most_failures = 8;          // of a step, each time ten times shorter
+constexpr double restart_step = 0.03;     // after a change of topology; h^4 / kappa
 
 double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 } // namespace
 
 Simulation::Simulation(const Scene& scene)
     : bending_{scene.membrane.bending_modulus, scene.membrane.spontaneous_curvature},
+      film_{scene.contact.disjoining_pressure, scene.contact.disjoining_range},
       contact_(scene.contact), constraints_(scene),
       control_(
           {scene.numerics.tolerance, scene.grid().spacing, scene.membrane.bending_modulus,
@@ -60,6 +64,7 @@ Simulation::Simulation(const Scene& scene)
   measures_ = summarise(0);
   topology_ = {measures_.components, measures_.genus};
   check(measures_);
+  find_narrow_places();
   note_unresolved();
 }
 
@@ -232,11 +237,23 @@ void Simulation::measure_forces(double time) {
     variation_[i] = std::clamp(F, -limit, limit);
     max_force_ = std::max(max_force_, std::abs(F));
   }
+  if (film_.exists()) push_films_apart();
   integrals_ = integrate(surface_, bending_, variation_);
   multipliers_ = constraints_.multipliers(integrals_, constraints_.rate(time));
   max_speed_ = 0;
   for (std::size_t i = 0; i < surface_.size(); i++)
     max_speed_ = std::max(max_speed_, std::abs(velocity(i)));
+}
+
+/// Adds the disjoining pressure to the variation.
+void Simulation::push_films_apart() {
+  film_energy_ = most_film_pressure_ = 0;
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const double thickness = surface_.thickness(i, band_), pressure = film_.pressure(thickness);
+    variation_[i] -= pressure;
+    most_film_pressure_ = std::max(most_film_pressure_, pressure);
+    film_energy_ += surface_.weight()[i] * film_.density(thickness);
+  }
 }
 
 /// Normal velocity at a sample (Eq. 80).
@@ -252,7 +269,7 @@ Measures Simulation::summarise(double dt) const {
   m.time = measures_.time + dt;
   m.dt = dt;
   m.bending_energy = integrals_.energy;
-  m.energy = integrals_.energy + constraints_.potential(quantities(integrals_));
+  m.energy = integrals_.energy + constraints_.potential(quantities(integrals_)) + film_energy_;
   m.int_KM2 = integrals_.int_KM2();
   m.P = multipliers_[0];
   m.sigma = multipliers_[1];
@@ -296,7 +313,7 @@ void Simulation::check(const Measures& m) const {
 double Simulation::choose_dt(double latest) const {
   double dt =
       last_dt_ == 0 ? control_.first(max_force_) : control_.next(last_dt_, error_, max_speed_);
-  dt = std::min(dt, constraints_.longest_step(time()));
+  dt = std::min({dt, constraints_.longest_step(time()), film_.longest_step(most_film_pressure_)});
   if (constraints_.turns_at(time())) dt = std::min(dt, control_.first(max_speed_));
   const double left = latest - time();
   if (dt >= left * (1 - 1e-9)) return left;
@@ -354,6 +371,7 @@ void Simulation::apply_constrained(double time) {
 }
 
 void Simulation::step(double latest) {
+  if (!why_not_on_.empty()) throw RunError(why_not_on_);
   int failures = 0;
   while (!try_step(choose_dt(latest), latest)) {
     if (++failures == most_failures) throw RunError(why_not_kept());
@@ -388,10 +406,14 @@ bool Simulation::try_step(double dt, double latest) {
   broken_ = true;
   const Quantities excess = measure(then);
   if (!(drift(then) < hopeless_drift)) return false;
-  excess_ = memory * excess_ + excess;
   Measures now = summarise(dt);
   now.time = then;
+  const bool driven = constraints_.rate(then) != Quantities::Zero() ||
+                      constraints_.rate(time()) != Quantities::Zero();
+  if (!driven && now.energy - measures_.energy > energy_jump * measures_.bending_energy)
+    return false;
   check(now);
+  excess_ = memory * excess_ + excess;
   steps_++;
   measures_ = now;
   broken_ = false;
@@ -402,10 +424,7 @@ bool Simulation::try_step(double dt, double latest) {
 void Simulation::go_back() {
   std::ranges::copy(stepper_.before(), phi_.coefficients().begin());
   broken_ = false;
-  band_.clear();
-  excess_.setZero();
-  measure(time());
-  stepper_.restart();
+  measure_anew();
   last_dt_ *= 0.1;
   error_ = 0;
 }
@@ -464,14 +483,6 @@ void Simulation::note_unresolved() {
   auto noted = [&](Event::Kind kind) {
     return std::ranges::any_of(events_, [&](const Event& e) { return e.kind == kind; });
   };
-  const Event now{.components_before = measures_.components,
-                  .components_after = measures_.components,
-                  .genus_before = measures_.genus,
-                  .genus_after = measures_.genus,
-                  .area_before = measures_.area,
-                  .area_cut = measures_.area,
-                  .energy_before = measures_.energy,
-                  .energy_after = measures_.energy};
   if (!noted(Event::Kind::sharp)) {
     std::size_t worst = 0;
     double sharpest = 0;
@@ -479,34 +490,39 @@ void Simulation::note_unresolved() {
       if (surface_.weight()[i] > 0 && surface_.sharpest(i) > sharpest)
         sharpest = surface_.sharpest(worst = i);
     if (sharpest * least_radius * grid().spacing > 1) {
-      Event e = now;
+      Event e = event_now();
       e.kind = Event::Kind::sharp;
       e.place = surface_.point(worst);
       e.size = 1 / sharpest;
       note(e);
     }
   }
-  for (const bool inside : {true, false}) {
-    const Event::Kind kind = inside ? Event::Kind::thin_inside : Event::Kind::thin_outside;
-    if (noted(kind)) continue;
-    const double least = least_half_gap * grid().spacing;
-    for (const CriticalPoint& q : critical_points(phi_, band_, grad_of_entries(), least, inside)) {
-      Event e = now;
-      e.kind = kind;
-      e.place = q.place;
-      e.size = q.radius;
-      note(e);
-      break;
-    }
+  const double least = least_half_gap * grid().spacing;
+  for (auto [kind, places] :
+       {std::pair{Event::Kind::thin_inside, &inside_}, {Event::Kind::thin_outside, &outside_}}) {
+    if (noted(kind) || places->empty() || places->front().radius > least) continue;
+    Event e = event_now();
+    e.kind = kind;
+    e.place = places->front().place;
+    e.size = places->front().radius;
+    note(e);
   }
 }
 
-/// Places inside that the membrane is closing in on and the grid can no longer resolve.
-std::vector<Closing> Simulation::closing_places() {
+/// The critical points near the membrane, on either side, the nearest first.
+void Simulation::find_narrow_places() {
   const double h = grid().spacing;
   const ClosingRule rule{bending_.bending_modulus, contact_.rupture_thickness};
-  std::vector<Closing> places;
-  for (CriticalPoint& q : critical_points(phi_, band_, grad_of_entries(), rule.reach(h), true)) {
+  const std::span<const double> grad = grad_of_entries();
+  inside_ = critical_points(phi_, band_, grad, rule.reach(h), true);
+  outside_ = critical_points(phi_, band_, grad, rule.reach(h), false);
+}
+
+/// Those inside where the membrane is closing in and the grid can no longer resolve it.
+std::optional<Closing> Simulation::closing_place() const {
+  const double h = grid().spacing;
+  const ClosingRule rule{bending_.bending_modulus, contact_.rupture_thickness};
+  for (const CriticalPoint& q : inside_) {
     double speed = 0, grad = 0;
     int count = 0;
     for (const int s : q.around) {
@@ -517,55 +533,121 @@ std::vector<Closing> Simulation::closing_places() {
       grad += surface_.grad()[i];
       count++;
     }
-    if (count == 0) continue;
     Event::Kind kind{};
-    if (rule.parts(q, speed / count, h, kind)) places.push_back({kind, std::move(q), grad / count});
+    if (count > 0 && rule.parts(q, speed / count, h, kind)) return Closing{kind, q, grad / count};
   }
-  return places;
+  return {};
 }
 
+/// Notes what parted or met by itself, and parts the inside where it is about to part and that
+/// lowers the energy.
 void Simulation::change_topology_if_needed() {
-  const std::vector<Closing> places = closing_places();
-  Event event;
+  if (topology_ != Topology{measures_.components, measures_.genus}) note_spontaneous_change();
+  find_narrow_places();
+  if (steps_ < next_parting_) return;
+  for (int cuts = 0; cuts < most_cuts; cuts++) {
+    const std::optional<Closing> place = closing_place();
+    if (!place) return;
+    if (!contact_.topology_changes) {
+      why_not_on_ = fmt::format("the topology is about to change at {}, which "
+                                "contact.topology_changes forbids",
+                                place_text(place->at.place));
+      return;
+    }
+    const bool parted = part_at(*place);
+    if (!parted) next_parting_ = steps_ + steps_between_attempts;
+    if (!parted || place->kind == Event::Kind::rupture) return;
+    find_narrow_places();
+  }
+}
+
+/// A change that the last step made. Necks and gaps may close by themselves; a film that does is
+/// beyond the grid, and what is left of it means nothing.
+void Simulation::note_spontaneous_change() {
+  Event event = event_now();
   event.components_before = topology_.components;
   event.genus_before = topology_.genus;
-  event.area_before = measures_.area;
-  event.energy_before = measures_.energy;
+  topology_ = {measures_.components, measures_.genus};
+  const bool gap =
+      !outside_.empty() && (inside_.empty() || outside_.front().radius < inside_.front().radius);
+  const std::vector<CriticalPoint>& places = gap ? outside_ : inside_;
   if (!places.empty()) {
-    event.kind = places.front().kind;
-    event.place = places.front().at.place;
-    event.size = places.front().at.radius;
-    if (!contact_.topology_changes)
-      throw RunError(fmt::format("the topology is about to change at ({:.3g}, {:.3g}, {:.3g}), "
-                                 "which contact.topology_changes forbids",
-                                 event.place[0], event.place[1], event.place[2]));
-    part(phi_, places);
-    band_.clear();
-    locate();
-    surface_.curvatures(phi_, band_);
-    event.area_cut = integrate(surface_, bending_, {}).area();
-    excess_.setZero();
-    measure(time());
-    stepper_.restart();
-    const double h = grid().spacing;
-    last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / bending_.bending_modulus);
-    const double dt = measures_.dt;
-    measures_ = summarise(0);
-    measures_.dt = dt;
-    check(measures_);
-  } else if (topology_ != Topology{measures_.components, measures_.genus}) {
-    event.area_cut = measures_.area;
-    event.kind = measures_.components > topology_.components ? Event::Kind::fission
-                 : measures_.genus > topology_.genus         ? Event::Kind::rupture
-                                                             : Event::Kind::fusion;
-  } else {
-    return;
+    event.place = places.front().place;
+    event.size = places.front().radius;
   }
+  const bool film = !gap && event.genus_after > event.genus_before;
+  event.kind = gap                                                ? Event::Kind::fusion
+               : film                                             ? Event::Kind::rupture
+               : event.components_after > event.components_before ? Event::Kind::fission
+                                                                  : Event::Kind::vanished;
+  note(event);
+  if (film) why_not_on_ = film_message(event.place);
+}
+
+std::string Simulation::place_text(const Vec3& place) const {
+  const Vec3 at = in_space(place);
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", at[0], at[1], at[2]);
+}
+
+std::string Simulation::film_message(const Vec3& place) const {
+  return fmt::format("a film of inner fluid at {} has become thinner than the grid resolves; try "
+                     "more grid.nodes, or keep films apart with contact.disjoining_pressure",
+                     place_text(place));
+}
+
+/// False, and nothing is changed, where the energy would rise. A neck too thin for the grid parts
+/// all the same; a film that thin is the end of the run.
+bool Simulation::part_at(const Closing& place) {
+  Event event = event_now();
+  event.kind = place.kind;
+  event.place = place.at.place;
+  event.size = place.at.radius;
+  const Array<double> whole(phi_.coefficients().begin(), phi_.coefficients().end());
+  part(phi_, place);
+  event.area_cut = measure_anew();
+  Measures parted = summarise(0);
+  const bool hopeless = event.size < ClosingRule::hopeless_radius * grid().spacing;
+  const bool film = place.kind == Event::Kind::rupture;
+  if (!(drift(time()) < hopeless_drift) ||
+      (parted.energy > measures_.energy && (film || !hopeless))) {
+    if (film && hopeless) why_not_on_ = film_message(event.place);
+    std::ranges::copy(whole, phi_.coefficients().begin());
+    measure_anew();
+    return false;
+  }
+  const double h = grid().spacing;
+  last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / bending_.bending_modulus);
+  parted.dt = measures_.dt;
+  check(parted);
+  measures_ = parted;
   event.components_after = measures_.components;
   event.genus_after = measures_.genus;
   event.energy_after = measures_.energy;
   topology_ = {measures_.components, measures_.genus};
   note(event);
+  return true;
+}
+
+/// After phi was changed by other means than a step. Returns the area before it was put back.
+double Simulation::measure_anew() {
+  band_.clear();
+  locate();
+  surface_.curvatures(phi_, band_);
+  const double area = integrate(surface_, bending_, {}).area();
+  excess_.setZero();
+  measure(time());
+  stepper_.restart();
+  return area;
+}
+
+/// With what there is now, before and after.
+Event Simulation::event_now() const {
+  Event e;
+  e.components_before = e.components_after = measures_.components;
+  e.genus_before = e.genus_after = measures_.genus;
+  e.area_before = e.area_cut = measures_.area;
+  e.energy_before = e.energy_after = measures_.energy;
+  return e;
 }
 
 /// Moves the box by whole cells when the membrane comes near one of its sides and has room on the
@@ -589,13 +671,9 @@ void Simulation::recentre_if_needed() {
   }
   if (!near || cells == std::array<int, 3>{}) return;
   move_box(cells);
-  Event event;
+  Event event = event_now();
   event.kind = Event::Kind::recentred;
   event.cells = cells;
-  event.components_before = event.components_after = measures_.components;
-  event.genus_before = event.genus_after = measures_.genus;
-  event.area_before = event.area_cut = measures_.area;
-  event.energy_before = event.energy_after = measures_.energy;
   note(event);
 }
 

@@ -6,10 +6,13 @@
 #include "dynamics/step_control.h"
 #include "dynamics/surface_integrals.h"
 #include "dynamics/topology_change.h"
+#include "energy/film.h"
 #include "levelset/gauge.h"
 #include "levelset/topology.h"
 #include "scene/scene.h"
 #include "store/frame.h"
+
+#include <optional>
 
 namespace lamella {
 
@@ -51,6 +54,7 @@ private:
   void go_back();
   std::string why_not_kept() const;
   void apply_constrained(double time);
+  void push_films_apart();
   double velocity(std::size_t sample) const;
   double drift(double time) const;
   void measure_forces(double time);
@@ -59,7 +63,14 @@ private:
   void recentre_if_needed();
   void move_box(const std::array<int, 3>& cells);
   void change_topology_if_needed();
-  std::vector<Closing> closing_places();
+  void find_narrow_places();
+  std::optional<Closing> closing_place() const;
+  void note_spontaneous_change();
+  std::string place_text(const Vec3& place) const;
+  std::string film_message(const Vec3& place) const;
+  bool part_at(const Closing& place);
+  double measure_anew();
+  Event event_now() const;
   void note_unresolved();
   void note(Event event);
   Vec3 in_space(Vec3 place) const;
@@ -71,6 +82,7 @@ private:
   std::span<const double> grad_of_entries();
 
   Helfrich bending_;
+  Film film_;
   Contact contact_;
   Constraints constraints_;
   StepControl control_;
@@ -89,16 +101,19 @@ private:
     std::vector<double> moves; ///< the displacement at the samples
   };
   std::array<Direction, 3> directions_;
-  Array<double> field_;             // on the grid; 0 off the band
-  std::vector<double> variation_;   // F at the samples
-  std::vector<double> grad_, work_; // a number a band entry
-  bool broken_ = false;             // the last step failed: the state is the one before it
+  Array<double> field_;                         // on the grid; 0 off the band
+  std::vector<double> variation_;               // F at the samples
+  std::vector<double> grad_, work_;             // a number a band entry
+  std::vector<CriticalPoint> inside_, outside_; // near the membrane
+  std::string why_not_on_;                      // the next step cannot be made
+  bool broken_ = false; // the last step failed: the state is the one before it
   Quantities start_ = Quantities::Zero();
   Quantities excess_ = Quantities::Zero(); // of a step beyond first order, as last seen
+  double film_energy_ = 0, most_film_pressure_ = 0;
   double max_force_ = 0, max_speed_ = 0, error_ = 0;
   double last_dt_ = 0;     // 0: none yet
   double response_dt_ = 0; // the step that the responses were found for
-  long steps_ = 0, renormalised_ = 0;
+  long steps_ = 0, renormalised_ = 0, next_parting_ = 0;
   std::array<int, 3> cells_{}; // by which the box has moved
   Topology topology_;
   Measures measures_;

@@ -3,9 +3,6 @@
 #include "levelset/critical_points.h"
 #include "levelset/level_set.h"
 
-#include <span>
-#include <vector>
-
 namespace lamella {
 
 /// A place where the inside is about to part: a neck, a film, or a last rest.
@@ -17,8 +14,14 @@ struct Closing {
 
 /// When a place parts. Lengths in grid spacings.
 struct ClosingRule {
+  /// Grid spacings; below, a place parts whether it is closing in or not.
+  static constexpr double hopeless_radius = 0.6;
+
   double bending_modulus = 1;
   double rupture_thickness = 0; ///< length, of films; 0: where the grid ceases to resolve them
+
+  /// One stiff direction, across.
+  static bool is_film(const CriticalPoint& point);
 
   /// How far inside the membrane critical points need be looked for; a length.
   double reach(double spacing) const;
@@ -28,7 +31,7 @@ struct ClosingRule {
   bool parts(const CriticalPoint& point, double speed, double spacing, Event::Kind& kind) const;
 };
 
-/// Lifts phi above zero at the places, smoothly and no further than needed.
-void part(LevelSet& phi, std::span<const Closing> places);
+/// Lifts phi above zero at the place, smoothly and no further than needed.
+void part(LevelSet& phi, const Closing& place);
 
 } // namespace lamella

@@ -87,4 +87,10 @@ void SurfaceGeometry::displace(std::size_t i, double distance, NarrowBand& band)
   p.z[s] = z_[i];
 }
 
+double SurfaceGeometry::thickness(std::size_t i, const NarrowBand& band) const {
+  const double probe = 3 * grid_.spacing;
+  const Vec3 at{x_[i] - probe * nx_[i], y_[i] - probe * ny_[i], z_[i] - probe * nz_[i]};
+  return probe - band.distance_at(at, probe);
+}
+
 } // namespace lamella

@@ -118,11 +118,12 @@ std::vector<CriticalPoint> critical_points(const LevelSet& phi, const NarrowBand
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(t.hessian);
     for (int d = 0; d < 3; d++) {
-      q.stiffness[d] = eigen.eigenvalues()[d];
-      q.across[d] = eigen.eigenvectors()(d, 2);
+      q.stiffness[d] = inside ? eigen.eigenvalues()[d] : -eigen.eigenvalues()[2 - d];
+      q.across[d] = eigen.eigenvectors()(d, inside ? 2 : 0);
     }
     if (q.radius < reach) points.push_back(std::move(q));
   }
+  std::ranges::sort(points, {}, &CriticalPoint::radius);
   return points;
 }
 

@@ -60,6 +60,25 @@ void NarrowBand::clear() {
   std::ranges::fill(plane_begin_, 0);
 }
 
+double NarrowBand::distance_at(const Vec3& x, double limit) const {
+  int base[3];
+  double t[3];
+  for (int d = 0; d < 3; d++) {
+    const double r = (x[d] - grid_.origin(d)) / grid_.spacing;
+    base[d] = int(std::floor(r));
+    t[d] = r - base[d];
+    if (base[d] < 0 || base[d] + 1 >= grid_.nodes[d]) return limit;
+  }
+  double sum = 0;
+  for (int corner = 0; corner < 8; corner++) {
+    const int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
+    const int s = slot_[grid_.index(base[0] + dx, base[1] + dy, base[2] + dz)];
+    const double value = s == unset ? -limit : std::clamp(distance_[s], -limit, limit);
+    sum += (dx ? t[0] : 1 - t[0]) * (dy ? t[1] : 1 - t[1]) * (dz ? t[2] : 1 - t[2]) * value;
+  }
+  return sum;
+}
+
 /// One Newton step for every node that was in the band. Points that it would move far have lost
 /// their sheet, which has vanished; their nodes are out of reach until another sheet claims them.
 void NarrowBand::refresh(const LevelSet& phi) {

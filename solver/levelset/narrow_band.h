@@ -38,6 +38,10 @@ public:
   Points points() { return {px_.data(), py_.data(), pz_.data()}; }
   /// |x - p|, negative inside; lengths.
   std::span<const double> distance() const { return distance_; }
+  /// The same between the nodes, in [-limit, limit]: trilinear, exact for flat sheets. Points off the
+  /// band count as deep inside.
+  double distance_at(const Vec3& x, double limit) const;
+
   /// 1 on the membrane and near it, falling smoothly to 0 at the edge of the band.
   std::span<const double> taper() const { return taper_; }
 
