@@ -20,8 +20,10 @@ constexpr double margin = 2.75;
 constexpr double force_limit = 1;
 
 // Relative error of what is held: what the start may have against the exact shape (of a sphere
-// quadrature gets volume or area right), what is good enough to be recorded, and what stops a run.
-constexpr double start_drift = 1e-4, worst_drift = 5e-6, hopeless_drift = 1e-3;
+// quadrature gets volume or area right), what needs no correction, what is good enough to be
+// recorded, and what makes a step a failure.
+constexpr double start_drift = 1e-4, negligible_drift = 5e-7, worst_drift = 5e-6,
+                 hopeless_drift = 1e-4;
 constexpr int most_projections = 12;
 constexpr double longest_displacement = 0.3;
 // Spacings; displaced further than that, the membrane needs samples that it did not before. (With
@@ -39,7 +41,7 @@ constexpr int steps_between_responses = 4;
 // Of the membrane from a side of the box, at which the box follows it.
 constexpr double recentre_margin = 3.5;
 // Smaller radii of curvature and half-widths of gaps are reported as unresolved.
-constexpr double least_radius = 0.75, least_half_gap = 0.8;
+constexpr double least_radius = 0.85, least_half_gap = 0.8;
 constexpr int most_cuts = 16;             // at one time
 constexpr int steps_between_attempts = 5; // to part where it would have raised the energy
 constexpr double energy_jump = 0.01;      // of the bending energy; more in a step is a failure
@@ -104,7 +106,7 @@ void Simulation::place_start(const Scene& scene) {
   start_[2] = integrals_.int_KM();
   constraints_ = Constraints(scene);
   constraints_.begin(start_);
-  measure(0);
+  measure_forces(0);
 }
 
 Frame Simulation::frame() const {
@@ -131,6 +133,7 @@ Quantities Simulation::measure(double time) {
 
 /// Displaces the membrane by combinations of 1, K_M, K until it has the quantities that are held.
 void Simulation::lead_to_constraints(double time) {
+  if (drift(time) < negligible_drift) return measure_forces(time);
   set_directions();
   const Eigen::Matrix3d effect = effect_of_directions();
   for (int pass = 0; pass == 0 || (pass < most_projections && drift(time) > worst_drift); pass++) {

@@ -13,7 +13,7 @@ double StepControl::next(double last, double error, double max_speed) const {
   const double h = limits_.spacing;
   const double wish =
       last * std::clamp(std::sqrt(limits_.tolerance / std::max(error, 1e-300)), 0.3, 1.3);
-  const double bounded = std::min({wish, 0.5 * h / std::max(max_speed, 1e-300), limits_.longest});
+  const double bounded = std::min({wish, 0.25 * h / std::max(max_speed, 1e-300), limits_.longest});
   const double floor =
       std::min({0.25 * h * h * h * h / limits_.stiffness, 1.2 * last, limits_.longest});
   return std::max(bounded, floor);

@@ -159,8 +159,8 @@ TEST(StepControl, GrowsAndShrinksWithinBounds) {
   EXPECT_DOUBLE_EQ(control.next(1e-5, 1e-9, 1), 1.3e-5);
   EXPECT_DOUBLE_EQ(control.next(1e-5, 0.02, 1), 0.5e-5);
   EXPECT_DOUBLE_EQ(control.next(9e-5, 1e-9, 1), 1e-4);
-  EXPECT_DOUBLE_EQ(control.next(1e-5, 0.005, 1500), 1e-5);
-  EXPECT_DOUBLE_EQ(control.next(1e-5, 1e-9, 3000), 0.5e-5);
+  EXPECT_DOUBLE_EQ(control.next(1e-5, 0.005, 750), 1e-5);
+  EXPECT_DOUBLE_EQ(control.next(1e-5, 1e-9, 3000), 0.25e-5);
   const double floor = 0.25 * std::pow(0.03, 4);
   EXPECT_DOUBLE_EQ(control.next(floor, 1e9, 1e9), floor);
   EXPECT_DOUBLE_EQ(control.next(floor / 10, 1e9, 1e9), 1.2 * floor / 10);
