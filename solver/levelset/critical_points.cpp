@@ -79,6 +79,21 @@ bool find_near(const LevelSet& phi, const Eigen::Vector3d& start, Eigen::Vector3
   return false;
 }
 
+/// Length of the way from x along a direction to {phi = 0}, by Newton's method from a guess.
+double way_to_membrane(const LevelSet& phi, const Eigen::Vector3d& x,
+                       const Eigen::Vector3d& direction, double guess) {
+  const double h = phi.grid().spacing;
+  double way = guess;
+  for (int i = 0; i < iterations; i++) {
+    const Taylor t = taylor_at(phi, x + way * direction);
+    const double step = -t.value / t.gradient.dot(direction);
+    if (!(std::abs(step) < h)) return guess;
+    way += step;
+    if (std::abs(step) < 1e-3 * h) break;
+  }
+  return way > 0 ? way : guess;
+}
+
 /// Band entries of the 4^3 nodes around a point.
 std::vector<int> entries_around(const NarrowBand& band, const Eigen::Vector3d& x) {
   const Grid& grid = band.grid();
@@ -121,6 +136,10 @@ std::vector<CriticalPoint> critical_points(const LevelSet& phi, const NarrowBand
       q.stiffness[d] = inside ? eigen.eigenvalues()[d] : -eigen.eigenvalues()[2 - d];
       q.across[d] = eigen.eigenvectors()(d, inside ? 2 : 0);
     }
+    // The nodes' nearest points lie beside that of x.
+    const Eigen::Vector3d across = eigen.eigenvectors().col(inside ? 2 : 0);
+    q.radius = std::min({q.radius, way_to_membrane(phi, x, across, q.radius),
+                         way_to_membrane(phi, x, -across, q.radius)});
     if (q.radius < reach) points.push_back(std::move(q));
   }
   std::ranges::sort(points, {}, &CriticalPoint::radius);
