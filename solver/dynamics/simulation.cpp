@@ -609,8 +609,10 @@ bool Simulation::part_at(const Closing& place) {
   part(phi_, place);
   event.area_cut = measure_anew();
   Measures parted = summarise(0);
-  const bool hopeless = event.size < ClosingRule::hopeless_radius * grid().spacing;
   const bool film = place.kind == Event::Kind::rupture;
+  const bool hopeless =
+      event.size <
+      (film ? ClosingRule::hopeless_film : ClosingRule::hopeless_neck) * grid().spacing;
   if (!(drift(time()) < hopeless_drift) ||
       (parted.energy > measures_.energy && (film || !hopeless))) {
     if (film && hopeless) why_not_on_ = film_message(event.place);
@@ -635,6 +637,7 @@ bool Simulation::part_at(const Closing& place) {
 double Simulation::measure_anew() {
   band_.clear();
   locate();
+  locate(); // some nodes of a new band find the right sheet only now
   surface_.curvatures(phi_, band_);
   const double area = integrate(surface_, bending_, {}).area();
   excess_.setZero();

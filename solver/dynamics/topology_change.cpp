@@ -39,8 +39,8 @@ bool ClosingRule::parts(const CriticalPoint& point, double speed, double spacing
   const double least = point.stiffness[0], most = point.stiffness[2];
   if (most <= 0) return false;
   const double h = spacing, r = point.radius;
-  const bool closing =
-      speed * soon * h * h * h * h / bending_modulus > r || r < hopeless_radius * h;
+  const double hopeless = is_film(point) ? hopeless_film : hopeless_neck;
+  const bool closing = speed * soon * h * h * h * h / bending_modulus > r || r < hopeless * h;
   if (is_film(point)) {
     kind = Event::Kind::rupture;
     return rupture_thickness > 0 ? r < 0.5 * rupture_thickness : closing && r < film_radius * h;

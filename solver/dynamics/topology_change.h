@@ -14,8 +14,8 @@ struct Closing {
 
 /// When a place parts. Lengths in grid spacings.
 struct ClosingRule {
-  /// Grid spacings; below, a place parts whether it is closing in or not.
-  static constexpr double hopeless_radius = 0.6;
+  /// Grid spacings; below, the grid cannot hold a neck or a film open.
+  static constexpr double hopeless_neck = 0.95, hopeless_film = 0.6;
 
   double bending_modulus = 1;
   double rupture_thickness = 0; ///< length, of films; 0: where the grid ceases to resolve them
