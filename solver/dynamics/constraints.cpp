@@ -34,10 +34,28 @@ Constraints::Constraints(const Scene& scene)
                 {Constraint::fixed, {}},
                 {scene.area_difference.constraint, scene.area_difference.ramp}}},
       given_{scene.volume.pressure, 0, scene.area_difference.multiplier} {
-  for (int i = 0; i < 3; i++) {
-    held_[i] = courses_[i].constraint != Constraint::free;
+  const Course& last = courses_[2];
+  held_ = {courses_[0].constraint != Constraint::free, true,
+           last.constraint == Constraint::fixed ||
+               (last.constraint == Constraint::ramped && last.ramp.start_times.front() <= 0)};
+  list_held();
+}
+
+void Constraints::list_held() {
+  indices_.clear();
+  for (int i = 0; i < 3; i++)
     if (held_[i]) indices_.push_back(i);
-  }
+}
+
+bool Constraints::set_out(double time, const Quantities& now) {
+  Course& course = courses_[2];
+  if (held_[2] || course.constraint != Constraint::ramped ||
+      time < course.ramp.start_times.front() * (1 - rounding))
+    return false;
+  course.start = now[2] / course.factor;
+  held_[2] = true;
+  list_held();
+  return true;
 }
 
 void Constraints::begin(const Quantities& start) {
@@ -74,7 +92,7 @@ Quantities Constraints::rate(double time) const {
   Quantities q = Quantities::Zero();
   for (int i = 0; i < 3; i++) {
     const Course& c = courses_[i];
-    if (c.constraint != Constraint::ramped) continue;
+    if (c.constraint != Constraint::ramped || !held_[i]) continue;
     const double soon = 1e-6 * change_per_step / c.ramp.rate;
     const double ahead = (c.at(time + soon) - c.at(time)) / soon;
     q[i] = c.factor * std::round(ahead / c.ramp.rate) * c.ramp.rate;

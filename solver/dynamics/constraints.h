@@ -35,6 +35,10 @@ public:
   /// What the start has; targets set out from there.
   void begin(const Quantities& start);
 
+  /// A ramped area difference is free until it sets out. True when it does so now, from what it has
+  /// become.
+  bool set_out(double time, const Quantities& now);
+
   bool is_held(int quantity) const { return held_[quantity]; }
   std::span<const int> held() const { return indices_; }
 
@@ -72,6 +76,7 @@ private:
     double end_time() const;
   };
   std::vector<double> turning_points() const;
+  void list_held();
 
   std::array<Course, 3> courses_;
   std::array<bool, 3> held_{};

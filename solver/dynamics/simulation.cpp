@@ -60,7 +60,8 @@ Simulation::Simulation(const Scene& scene)
            scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16}),
       phi_(scene.grid()), fourier_(scene.grid()), band_(scene.grid(), band_half_width),
       extension_(scene.grid()), gauge_(scene.grid()),
-      stepper_(scene.grid(), fourier_, constraints_.is_held(2) ? 2 : 1) {
+      stepper_(scene.grid(), fourier_,
+               scene.area_difference.constraint == Constraint::free ? 1 : 2) {
   place_start(scene);
   if (drift(0) > hopeless_drift) throw RunError(why_not_kept());
   measures_ = summarise(0);
@@ -133,7 +134,9 @@ Quantities Simulation::measure(double time) {
 
 /// Displaces the membrane by combinations of 1, K_M, K until it has the quantities that are held.
 void Simulation::lead_to_constraints(double time) {
-  if (drift(time) < negligible_drift) return measure_forces(time);
+  // Near shapes of extreme area difference the least correction takes a long way.
+  const double negligible = constraints_.is_held(2) ? worst_drift : negligible_drift;
+  if (drift(time) < negligible) return measure_forces(time);
   set_directions();
   const Eigen::Matrix3d effect = effect_of_directions();
   for (int pass = 0; pass == 0 || (pass < most_projections && drift(time) > worst_drift); pass++) {
@@ -375,6 +378,10 @@ void Simulation::apply_constrained(double time) {
 
 void Simulation::step(double latest) {
   if (!why_not_on_.empty()) throw RunError(why_not_on_);
+  if (constraints_.set_out(time(), quantities(integrals_))) {
+    measure_forces(time());
+    response_dt_ = 0; // there is one more
+  }
   int failures = 0;
   while (!try_step(choose_dt(latest), latest)) {
     if (++failures == most_failures) throw RunError(why_not_kept());
