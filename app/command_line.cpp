@@ -55,6 +55,14 @@ Runs are compared with a table (--reference), the exact solution that comes with
 finer than all others. The output folder receives tradeoff.csv, tradeoff.md and tradeoff.png: wall time
 against error, with the Pareto front. docs/tradeoff.md says more.)";
 
+constexpr const char* extremes_notes = R"(Examples:
+  lamella extremes                     all cases, some minutes
+  lamella extremes --quick             a minute's worth of them
+  lamella extremes --only prolate      those with "prolate" in their names
+
+Each case comes to its known answer or is told what it lacks. The output folder receives extremes.md
+and extremes.csv. docs/extremes.md says more. Exit code 1: a case came out wrong without a word.)";
+
 void add_backend(CLI::App& command, std::string& backend) {
   command.add_option("--backend", backend, "How pictures are drawn: auto, osmesa, egl or x")
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "x"}).description(""))
@@ -165,6 +173,17 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
   add_backend(tradeoff, options.backend);
 }
 
+void add_extremes(CLI::App& app, ExtremesOptions& options) {
+  CLI::App& extremes =
+      *app.add_subcommand("extremes", "Run the cases at the limits of the method, with a verdict");
+  extremes.footer(extremes_notes);
+  add_output(extremes, options.folder, "Output folder (default: extremes)");
+  extremes.add_option("--only", options.only, "Cases with this in their names alone")
+      ->type_name("PATTERN");
+  extremes.add_flag("--quick", options.quick, "A minute's worth of cases");
+  add_threads(extremes, options.threads);
+}
+
 /// What to say about an argument that no command takes.
 std::string unknown_argument(const CLI::App& command, const std::string& argument) {
   if (!argument.starts_with('-'))
@@ -209,10 +228,12 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   RenderCommandOptions render_options;
   std::string scene;
   TradeoffOptions tradeoff_options;
+  ExtremesOptions extremes_options;
   add_run(app, run_options);
   add_render(app, render_options);
   add_scenes(app, scene);
   add_tradeoff(app, tradeoff_options);
+  add_extremes(app, extremes_options);
 
   if (argc > 1) refuse_unknown_command(app, argv[1]);
   try {
@@ -227,6 +248,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   if (app.got_subcommand("run")) return [=] { return run(run_options); };
   if (app.got_subcommand("render")) return [=] { return render(render_options); };
   if (app.got_subcommand("tradeoff")) return [=] { return tradeoff(tradeoff_options); };
+  if (app.got_subcommand("extremes")) return [=] { return extremes(extremes_options); };
   return [=] { return show_scenes(scene); };
 }
 

@@ -55,4 +55,15 @@ struct TradeoffOptions {
 /// StoreError.
 int tradeoff(const TradeoffOptions& options);
 
+struct ExtremesOptions {
+  std::filesystem::path folder = "extremes";
+  std::string only; ///< a part of the names of those cases to run; empty: all
+  bool quick = false;
+  int threads = 0; ///< 0: all
+};
+
+/// Runs the cases at the limits of the method and writes a table of them into the folder. Returns
+/// an ExitCode, `unexpected` where a case came out wrong; throws UsageError, StoreError.
+int extremes(const ExtremesOptions& options);
+
 } // namespace lamella
