@@ -11,6 +11,9 @@ namespace lamella {
 namespace {
 constexpr double reach_inside =
     1.8; // spacings; the quadrature kernel and linear interpolation need no more
+// Spacings, of the way through the inside. Close to a sheet distances are those to it, without the
+// crease in the middle between two.
+constexpr double first_probe = 3, near_opposite = 1.5, longest_stride = 4, thickest = 24;
 constexpr std::size_t chunk = 256;
 } // namespace
 
@@ -87,10 +90,17 @@ void SurfaceGeometry::displace(std::size_t i, double distance, NarrowBand& band)
   p.z[s] = z_[i];
 }
 
+/// From the sample inwards in strides that cannot pass a sheet, until the opposite one is near.
 double SurfaceGeometry::thickness(std::size_t i, const NarrowBand& band) const {
-  const double probe = 3 * grid_.spacing;
-  const Vec3 at{x_[i] - probe * nx_[i], y_[i] - probe * ny_[i], z_[i] - probe * nz_[i]};
-  return probe - band.distance_at(at, probe);
+  const double h = grid_.spacing, furthest = thickest * h;
+  double way = first_probe * h;
+  while (way < furthest) {
+    const Vec3 at{x_[i] - way * nx_[i], y_[i] - way * ny_[i], z_[i] - way * nz_[i]};
+    const double d = band.distance_at(at, longest_stride * h);
+    if (d > -near_opposite * h) return std::min(way - d, furthest);
+    way += -d - h;
+  }
+  return furthest;
 }
 
 } // namespace lamella

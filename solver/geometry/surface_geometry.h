@@ -27,8 +27,8 @@ public:
   /// Moves sample i along its normal; the others stay.
   void displace(std::size_t i, double distance, NarrowBand& band);
 
-  /// Thickness of the inside at sample i: along the normal to the opposite sheet, at most twice the
-  /// probe's length of three spacings.
+  /// Thickness of the inside at sample i: along the normal to the opposite sheet, at most 24
+  /// spacings.
   double thickness(std::size_t i, const NarrowBand& band) const;
 
   std::size_t size() const { return x_.size(); }

@@ -42,15 +42,46 @@ double slope_at_node(const LevelSet& phi, int node) {
   return std::sqrt(sum) / (2 * grid.spacing);
 }
 
+/// The nearest point of a neighbour lies in the opposite direction: the nodes are on either side of
+/// the middle of something thin.
+bool is_in_the_middle(const NarrowBand& band, std::size_t s) {
+  const Grid& grid = band.grid();
+  const ConstPoints x = band.positions(), p = band.points();
+  const int stride[3] = {1, grid.nx(), grid.nx() * grid.ny()};
+  for (int d = 0; d < 3; d++)
+    for (const int side : {-1, 1}) {
+      const int t = band.slot(band.node()[s] + side * stride[d]);
+      if (t < 0) continue;
+      const double cosine = (x.x[s] - p.x[s]) * (x.x[t] - p.x[t]) +
+                            (x.y[s] - p.y[s]) * (x.y[t] - p.y[t]) +
+                            (x.z[s] - p.z[s]) * (x.z[t] - p.z[t]);
+      if (cosine < 0 && (band.distance()[s] < 0) == (band.distance()[t] < 0)) return true;
+    }
+  return false;
+}
+
+double mean_of_known(std::span<const double> values) {
+  double sum = 0;
+  int count = 0;
+  for (const double v : values) {
+    sum += v;
+    count += v > 0;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 /// Nodes from which a critical point may be near.
 std::vector<int> candidates(const LevelSet& phi, const NarrowBand& band,
                             std::span<const double> grad, double reach, bool inside) {
   constexpr std::size_t chunk = 4096;
+  const double mean = mean_of_known(grad);
   std::vector<std::vector<int>> found((band.size() + chunk - 1) / chunk);
   parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++) {
+      const double slope = grad[s] > 0 ? grad[s] : mean; // there is none for nodes far inside
       const double d = inside ? -band.distance()[s] : band.distance()[s];
-      if (d > 0 && d < reach && grad[s] > 0 && slope_at_node(phi, band.node()[s]) < flat * grad[s])
+      if (d > 0 && d < reach &&
+          (slope_at_node(phi, band.node()[s]) < flat * slope || is_in_the_middle(band, s)))
         found[begin / chunk].push_back(band.node()[s]);
     }
   });
@@ -94,15 +125,18 @@ double way_to_membrane(const LevelSet& phi, const Eigen::Vector3d& x,
   return way > 0 ? way : guess;
 }
 
-/// Band entries of the 4^3 nodes around a point.
-std::vector<int> entries_around(const NarrowBand& band, const Eigen::Vector3d& x) {
+/// Band entries of the nodes in a cube around a point, from which the membrane at a distance is
+/// seen.
+std::vector<int> entries_around(const NarrowBand& band, const Eigen::Vector3d& x, double distance) {
   const Grid& grid = band.grid();
+  const int reach = std::max(2, int(std::ceil(distance / grid.spacing)));
   int base[3];
-  for (int d = 0; d < 3; d++) base[d] = int(std::floor((x[d] - grid.origin(d)) / grid.spacing)) - 1;
+  for (int d = 0; d < 3; d++)
+    base[d] = int(std::floor((x[d] - grid.origin(d)) / grid.spacing)) - reach + 1;
   std::vector<int> entries;
-  for (int k = base[2]; k < base[2] + 4; k++)
-    for (int j = base[1]; j < base[1] + 4; j++)
-      for (int i = base[0]; i < base[0] + 4; i++) {
+  for (int k = base[2]; k < base[2] + 2 * reach; k++)
+    for (int j = base[1]; j < base[1] + 2 * reach; j++)
+      for (int i = base[0]; i < base[0] + 2 * reach; i++) {
         if (std::min({i, j, k}) < 0 || i >= grid.nx() || j >= grid.ny() || k >= grid.nz()) continue;
         const int s = band.slot(grid.index(i, j, k));
         if (s >= 0) entries.push_back(s);
@@ -126,7 +160,8 @@ std::vector<CriticalPoint> critical_points(const LevelSet& phi, const NarrowBand
       return (Eigen::Vector3d(q.place[0], q.place[1], q.place[2]) - x).norm() < same * h;
     };
     if (std::ranges::any_of(points, near)) continue;
-    CriticalPoint q{{x[0], x[1], x[2]}, t.value, {}, {}, 1e300, entries_around(band, x)};
+    CriticalPoint q{{x[0], x[1], x[2]}, t.value, {}, {}, 1e300, {}};
+    q.around = entries_around(band, x, std::abs(band.distance()[band.slot(node)]));
     for (const int s : q.around) {
       const ConstPoints p = band.points();
       q.radius = std::min(q.radius, (Eigen::Vector3d(p.x[s], p.y[s], p.z[s]) - x).norm());
