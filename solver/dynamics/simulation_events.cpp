@@ -1,0 +1,236 @@
+#include "dynamics/simulation.h"
+
+#include "error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+// What happens to a membrane besides moving: it parts, ruptures, meets itself, comes near the sides
+// of the box, or becomes finer than the grid.
+namespace lamella {
+
+namespace {
+// Spacings. Of the membrane from a side of the box, at which the box follows it.
+constexpr double recentre_margin = 3.5;
+// Smaller radii of curvature and half-widths of gaps are reported as unresolved.
+constexpr double least_radius = 0.85, least_half_gap = 0.8;
+
+constexpr double worst_drift = 1e-4;      // of the constraints, after parting
+constexpr int most_cuts = 16;             // at one time
+constexpr int steps_between_attempts = 5; // to part where it would have raised the energy
+constexpr double restart_step = 0.03;     // after parting; h^4 / kappa
+} // namespace
+
+Vec3 Simulation::in_space(Vec3 place) const {
+  for (int d = 0; d < 3; d++) place[d] += cells_[d] * grid().spacing;
+  return place;
+}
+
+void Simulation::note(Event event) {
+  event.time = time();
+  event.place = in_space(event.place);
+  events_.push_back(event);
+}
+
+/// With what there is now, before and after.
+Event Simulation::event_now() const {
+  Event e;
+  e.components_before = e.components_after = measures_.components;
+  e.genus_before = e.genus_after = measures_.genus;
+  e.area_before = e.area_cut = measures_.area;
+  e.energy_before = e.energy_after = measures_.energy;
+  return e;
+}
+
+/// Says once of each kind that something has become finer than the grid.
+void Simulation::note_unresolved() {
+  const SurfaceGeometry& surface = vesicle_.surface();
+  auto noted = [&](Event::Kind kind) {
+    return std::ranges::any_of(events_, [&](const Event& e) { return e.kind == kind; });
+  };
+  if (!noted(Event::Kind::sharp)) {
+    std::size_t worst = 0;
+    double sharpest = 0;
+    for (std::size_t i = 0; i < surface.size(); i++)
+      if (surface.weight()[i] > 0 && surface.sharpest(i) > sharpest)
+        sharpest = surface.sharpest(worst = i);
+    if (sharpest * least_radius * grid().spacing > 1) {
+      Event e = event_now();
+      e.kind = Event::Kind::sharp;
+      e.place = surface.point(worst);
+      e.size = 1 / sharpest;
+      note(e);
+    }
+  }
+  const double least = least_half_gap * grid().spacing;
+  for (auto [kind, places] :
+       {std::pair{Event::Kind::thin_inside, &inside_}, {Event::Kind::thin_outside, &outside_}}) {
+    if (noted(kind) || places->empty() || places->front().radius > least) continue;
+    Event e = event_now();
+    e.kind = kind;
+    e.place = places->front().place;
+    e.size = places->front().radius;
+    note(e);
+  }
+}
+
+/// The critical points near the membrane, on either side, the nearest first.
+void Simulation::find_narrow_places() {
+  const double h = grid().spacing;
+  const ClosingRule rule{vesicle_.bending().bending_modulus, contact_.rupture_thickness};
+  const std::vector<double> grad = vesicle_.grad_of_entries();
+  inside_ = critical_points(vesicle_.phi(), vesicle_.band(), grad, rule.reach(h), true);
+  outside_ = critical_points(vesicle_.phi(), vesicle_.band(), grad, rule.reach(h), false);
+}
+
+/// Those inside where the membrane is closing in and the grid can no longer resolve it.
+std::optional<Closing> Simulation::closing_place() const {
+  const SurfaceGeometry& surface = vesicle_.surface();
+  const double h = grid().spacing;
+  const ClosingRule rule{vesicle_.bending().bending_modulus, contact_.rupture_thickness};
+  for (const CriticalPoint& q : inside_) {
+    double speed = 0, grad = 0;
+    int count = 0;
+    for (const int s : q.around) {
+      const auto at = std::ranges::lower_bound(surface.entry(), s);
+      if (at == surface.entry().end() || *at != s) continue;
+      const std::size_t i = std::size_t(at - surface.entry().begin());
+      speed -= vesicle_.velocity(i);
+      grad += surface.grad()[i];
+      count++;
+    }
+    Event::Kind kind{};
+    if (count > 0 && rule.parts(q, speed / count, h, kind)) return Closing{kind, q, grad / count};
+  }
+  return {};
+}
+
+/// Notes what parted or met by itself, and parts the inside where it is about to part and that
+/// lowers the energy.
+void Simulation::change_topology_if_needed() {
+  if (topology_ != Topology{measures_.components, measures_.genus}) note_spontaneous_change();
+  find_narrow_places();
+  if (steps_ < next_parting_) return;
+  for (int cuts = 0; cuts < most_cuts; cuts++) {
+    const std::optional<Closing> place = closing_place();
+    if (!place) return;
+    if (!contact_.topology_changes) {
+      why_not_on_ = fmt::format("the topology is about to change at {}, which "
+                                "contact.topology_changes forbids",
+                                place_text(place->at.place));
+      return;
+    }
+    const bool parted = part_at(*place);
+    if (!parted) next_parting_ = steps_ + steps_between_attempts;
+    if (!parted || place->kind == Event::Kind::rupture) return;
+    find_narrow_places();
+  }
+}
+
+/// A change that the last step made. Necks and gaps may close by themselves; a film that does is
+/// beyond the grid, and what is left of it means nothing.
+void Simulation::note_spontaneous_change() {
+  Event event = event_now();
+  event.components_before = topology_.components;
+  event.genus_before = topology_.genus;
+  topology_ = {measures_.components, measures_.genus};
+  const bool gap =
+      !outside_.empty() && (inside_.empty() || outside_.front().radius < inside_.front().radius);
+  const std::vector<CriticalPoint>& places = gap ? outside_ : inside_;
+  if (!places.empty()) {
+    event.place = places.front().place;
+    event.size = places.front().radius;
+  }
+  const bool film = !gap && event.genus_after > event.genus_before;
+  event.kind = gap                                                ? Event::Kind::fusion
+               : film                                             ? Event::Kind::rupture
+               : event.components_after > event.components_before ? Event::Kind::fission
+                                                                  : Event::Kind::vanished;
+  note(event);
+  if (film) why_not_on_ = film_message(event.place);
+}
+
+std::string Simulation::place_text(const Vec3& place) const {
+  const Vec3 at = in_space(place);
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", at[0], at[1], at[2]);
+}
+
+std::string Simulation::film_message(const Vec3& place) const {
+  return fmt::format("a film of inner fluid at {} has become thinner than the grid resolves; try "
+                     "more grid.nodes, or keep films apart with contact.disjoining_pressure",
+                     place_text(place));
+}
+
+/// False, and nothing is changed, where the energy would rise. A neck too thin for the grid parts
+/// all the same; a film that thin is the end of the run.
+bool Simulation::part_at(const Closing& place) {
+  Event event = event_now();
+  event.kind = place.kind;
+  event.place = place.at.place;
+  event.size = place.at.radius;
+  const Array<double> whole(vesicle_.phi().coefficients().begin(),
+                            vesicle_.phi().coefficients().end());
+  part(vesicle_.phi(), place);
+  event.area_cut = restart();
+  Measures parted = vesicle_.measures(time());
+  const bool film = place.kind == Event::Kind::rupture;
+  const bool hopeless =
+      event.size <
+      (film ? ClosingRule::hopeless_film : ClosingRule::hopeless_neck) * grid().spacing;
+  if (!(vesicle_.drift(time()) < worst_drift) ||
+      (parted.energy > measures_.energy && (film || !hopeless))) {
+    if (film && hopeless) why_not_on_ = film_message(event.place);
+    std::ranges::copy(whole, vesicle_.phi().coefficients().begin());
+    restart();
+    return false;
+  }
+  const double h = grid().spacing;
+  last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.bending().bending_modulus);
+  parted.dt = measures_.dt;
+  check(parted);
+  measures_ = parted;
+  event.components_after = measures_.components;
+  event.genus_after = measures_.genus;
+  event.energy_after = measures_.energy;
+  topology_ = {measures_.components, measures_.genus};
+  note(event);
+  return true;
+}
+
+/// Moves the box by whole cells when the membrane comes near one of its sides and has room on the
+/// other.
+void Simulation::recentre_if_needed() {
+  const SurfaceGeometry& surface = vesicle_.surface();
+  const double h = grid().spacing;
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (std::size_t i = 0; i < surface.size(); i++) {
+    const Vec3 p = surface.point(i);
+    for (int d = 0; d < 3; d++) {
+      low[d] = std::min(low[d], p[d]);
+      high[d] = std::max(high[d], p[d]);
+    }
+  }
+  std::array<int, 3> cells{};
+  bool near = false;
+  for (int d = 0; d < 3; d++) {
+    const double side = 0.5 * grid().length(d);
+    near = near || std::min(low[d] + side, side - high[d]) < recentre_margin * h;
+    cells[d] = int(std::lround(0.5 * (low[d] + high[d]) / h));
+  }
+  if (!near || cells == std::array<int, 3>{}) return;
+  move_box(cells);
+  Event event = event_now();
+  event.kind = Event::Kind::recentred;
+  event.cells = cells;
+  note(event);
+}
+
+void Simulation::move_box(const std::array<int, 3>& cells) {
+  shift(grid(), cells, vesicle_.phi().coefficients());
+  stepper_.shift(cells);
+  for (int d = 0; d < 3; d++) cells_[d] += cells[d];
+  vesicle_.measure_anew(time());
+}
+
+} // namespace lamella
