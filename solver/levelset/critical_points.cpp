@@ -11,10 +11,11 @@ namespace lamella {
 
 namespace {
 
-constexpr double flat = 0.75;         // of the slope on the membrane; less is near a critical point
-constexpr double search_radius = 1.5; // spacings from the node where the search begins
-constexpr double longest_step = 0.6;  // spacings
-constexpr double same = 0.5;          // spacings between points that are one
+constexpr double flat = 0.75; // of the slope on the membrane; less is near a critical point
+constexpr double another_direction = 0.3; // cosine
+constexpr double search_radius = 1.5;     // spacings from the node where the search begins
+constexpr double longest_step = 0.6;      // spacings
+constexpr double same = 0.5;              // spacings between points that are one
 constexpr int iterations = 8;
 
 struct Taylor {
@@ -42,8 +43,8 @@ double slope_at_node(const LevelSet& phi, int node) {
   return std::sqrt(sum) / (2 * grid.spacing);
 }
 
-/// The nearest point of a neighbour lies in the opposite direction: the nodes are on either side of
-/// the middle of something thin.
+/// The nearest point of a neighbour lies in quite another direction: the nodes are on either side
+/// of the middle of something thin.
 bool is_in_the_middle(const NarrowBand& band, std::size_t s) {
   const Grid& grid = band.grid();
   const ConstPoints x = band.positions(), p = band.points();
@@ -52,10 +53,11 @@ bool is_in_the_middle(const NarrowBand& band, std::size_t s) {
     for (const int side : {-1, 1}) {
       const int t = band.slot(band.node()[s] + side * stride[d]);
       if (t < 0) continue;
-      const double cosine = (x.x[s] - p.x[s]) * (x.x[t] - p.x[t]) +
-                            (x.y[s] - p.y[s]) * (x.y[t] - p.y[t]) +
-                            (x.z[s] - p.z[s]) * (x.z[t] - p.z[t]);
-      if (cosine < 0 && (band.distance()[s] < 0) == (band.distance()[t] < 0)) return true;
+      const double product = (x.x[s] - p.x[s]) * (x.x[t] - p.x[t]) +
+                             (x.y[s] - p.y[s]) * (x.y[t] - p.y[t]) +
+                             (x.z[s] - p.z[s]) * (x.z[t] - p.z[t]);
+      const double both = band.distance()[s] * band.distance()[t]; // < 0: on two sides
+      if (both > 0 && product < another_direction * both) return true;
     }
   return false;
 }
