@@ -28,4 +28,15 @@ Sum parallel_sum(std::size_t n, std::size_t grain, F&& f) {
   return total;
 }
 
+/// What f(begin, end, list) appends for the chunks of [0, n), in their order.
+template <class T, class F>
+std::vector<T> parallel_collect(std::size_t n, std::size_t grain, F&& f) {
+  std::vector<std::vector<T>> parts((n + grain - 1) / grain);
+  parallel_for(n, grain,
+               [&](std::size_t begin, std::size_t end) { f(begin, end, parts[begin / grain]); });
+  std::vector<T> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 } // namespace lamella

@@ -38,6 +38,18 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
+/// f(neighbour) for the up to six neighbours of a node along the axes; those beyond a side of the
+/// box do not count.
+template <class F>
+void for_each_neighbour(const Grid& grid, int node, F&& f) {
+  const int stride[3] = {1, grid.nx(), grid.nx() * grid.ny()};
+  for (int d = 0; d < 3; d++) {
+    const int at = node / stride[d] % grid.nodes[d];
+    if (at > 0) f(node - stride[d]);
+    if (at + 1 < grid.nodes[d]) f(node + stride[d]);
+  }
+}
+
 /// Moves the box under periodic nodal values: the value at node i becomes that at i + cells.
 void shift(const Grid& grid, const std::array<int, 3>& cells, std::span<double> values);
 

@@ -77,19 +77,16 @@ std::vector<int> candidates(const LevelSet& phi, const NarrowBand& band,
                             std::span<const double> grad, double reach, bool inside) {
   constexpr std::size_t chunk = 4096;
   const double mean = mean_of_known(grad);
-  std::vector<std::vector<int>> found((band.size() + chunk - 1) / chunk);
-  parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
+  auto find = [&](std::size_t begin, std::size_t end, std::vector<int>& found) {
     for (std::size_t s = begin; s < end; s++) {
       const double slope = grad[s] > 0 ? grad[s] : mean; // there is none for nodes far inside
       const double d = inside ? -band.distance()[s] : band.distance()[s];
       if (d > 0 && d < reach &&
           (slope_at_node(phi, band.node()[s]) < flat * slope || is_in_the_middle(band, s)))
-        found[begin / chunk].push_back(band.node()[s]);
+        found.push_back(band.node()[s]);
     }
-  });
-  std::vector<int> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  };
+  return parallel_collect<int>(band.size(), chunk, find);
 }
 
 /// Newton's method for grad phi = 0; false if there is no such point near the start.

@@ -15,20 +15,6 @@ constexpr double out_of_reach = 1e300;
 constexpr int unset = -1;
 constexpr std::size_t chunk = 512;
 
-/// f(neighbour) for the up to six neighbours of a node.
-/// The band does not wrap: scenes keep the membrane clear of the sides of the box.
-template <class F>
-void for_each_neighbour(const Grid& grid, int node, F&& f) {
-  const int nx = grid.nx(), nxy = nx * grid.ny();
-  const int i = node % nx, j = node / nx % grid.ny(), k = node / nxy;
-  if (i > 0) f(node - 1);
-  if (i < grid.nx() - 1) f(node + 1);
-  if (j > 0) f(node - nx);
-  if (j < grid.ny() - 1) f(node + nx);
-  if (k > 0) f(node - nxy);
-  if (k < grid.nz() - 1) f(node + nxy);
-}
-
 double square(double x) { return x * x; }
 
 double distance2(const Grid& grid, int node, const double* p) {
@@ -97,8 +83,7 @@ void NarrowBand::refresh(const LevelSet& phi) {
 /// Nodes whose neighbour knows a point that is nearer by a tenth of a spacing (another sheet has
 /// come closer) start again from it.
 void NarrowBand::repair(const LevelSet& phi) {
-  std::vector<std::vector<Entry>> found((size() + chunk - 1) / chunk);
-  parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
+  auto find = [&](std::size_t begin, std::size_t end, std::vector<Entry>& found) {
     for (std::size_t s = begin; s < end; s++) {
       const double enough = std::max(0.0, distance_[s] - 0.1 * grid_.spacing);
       double nearest = enough * enough;
@@ -112,12 +97,10 @@ void NarrowBand::repair(const LevelSet& phi) {
           from = t;
         }
       });
-      if (from != unset)
-        found[begin / chunk].push_back({node_[s], {px_[from], py_[from], pz_[from]}, 0});
+      if (from != unset) found.push_back({node_[s], {px_[from], py_[from], pz_[from]}, 0});
     }
-  });
-  std::vector<Entry> entries;
-  for (const auto& part : found) entries.insert(entries.end(), part.begin(), part.end());
+  };
+  std::vector<Entry> entries = parallel_collect<Entry>(size(), chunk, find);
   solve(phi, entries, 4);
   for (const Entry& e : entries) {
     const int s = slot_[e.node];
@@ -157,7 +140,6 @@ std::vector<NarrowBand::Entry> NarrowBand::seeds(const LevelSet& phi) const {
   const std::span<const double> f = phi.nodal();
   const int nx = grid_.nx(), ny = grid_.ny(), nz = grid_.nz();
   const int stride[3] = {1, nx, nx * ny};
-  std::vector<std::vector<Entry>> found(nz);
   auto crossing = [&](std::vector<Entry>& out, int node, int d) {
     const int other = node + stride[d];
     const double t = f[node] / (f[node] - f[other]), h = grid_.spacing;
@@ -166,7 +148,7 @@ std::vector<NarrowBand::Entry> NarrowBand::seeds(const LevelSet& phi) const {
     if (slot_[node] == unset) out.push_back({node, {p[0], p[1], p[2]}, t * h});
     if (slot_[other] == unset) out.push_back({other, {p[0], p[1], p[2]}, (1 - t) * h});
   };
-  parallel_for(nz, 1, [&](std::size_t k, std::size_t) {
+  auto find = [&](std::size_t k, std::size_t, std::vector<Entry>& found) {
     for (int j = 0; j < ny; j++) {
       const int row = (int(k) * ny + j) * nx;
       const double* a = &f[row];
@@ -174,35 +156,30 @@ std::vector<NarrowBand::Entry> NarrowBand::seeds(const LevelSet& phi) const {
       for (int i = 0; i < nx - 1; i++) {
         const bool s = a[i] < 0, sx = up[0][i] < 0, sy = up[1][i] < 0, sz = up[2][i] < 0;
         if (!((s != sx) | (s != sy) | (s != sz))) continue;
-        if (s != sx) crossing(found[k], row + i, 0);
-        if (s != sy) crossing(found[k], row + i, 1);
-        if (s != sz) crossing(found[k], row + i, 2);
+        if (s != sx) crossing(found, row + i, 0);
+        if (s != sy) crossing(found, row + i, 1);
+        if (s != sz) crossing(found, row + i, 2);
       }
     }
-  });
-  std::vector<Entry> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  };
+  return parallel_collect<Entry>(nz, 1, find);
 }
 
 /// Nodes next to the frontier that have no entry yet, starting from the frontier's points.
 std::vector<NarrowBand::Entry> NarrowBand::neighbours(std::span<const Entry> frontier) const {
   const double reach = half_width_ * grid_.spacing;
-  std::vector<std::vector<Entry>> found((frontier.size() + chunk - 1) / chunk);
-  parallel_for(frontier.size(), chunk, [&](std::size_t begin, std::size_t end) {
+  auto find = [&](std::size_t begin, std::size_t end, std::vector<Entry>& found) {
     for (std::size_t s = begin; s < end; s++) {
       const Entry& e = frontier[s];
       if (e.distance > reach) continue;
       for_each_neighbour(grid_, e.node, [&](int m) {
         if (slot_[m] != unset) return;
         const double d = std::sqrt(distance2(grid_, m, e.p));
-        if (d <= reach) found[begin / chunk].push_back({m, {e.p[0], e.p[1], e.p[2]}, d});
+        if (d <= reach) found.push_back({m, {e.p[0], e.p[1], e.p[2]}, d});
       });
     }
-  });
-  std::vector<Entry> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  };
+  return parallel_collect<Entry>(frontier.size(), chunk, find);
 }
 
 /// March outwards from the band's outer nodes, and from sign changes of phi that the band does not

@@ -17,16 +17,6 @@ constexpr double least_spread = 0.1; // 1 - d k: below, the point is not (safely
 constexpr std::size_t lists = 4096;
 constexpr std::size_t chunk = 512;
 
-template <class F>
-void for_each_neighbour(const Grid& grid, int node, F&& f) {
-  const int stride[3] = {1, grid.nx(), grid.nx() * grid.ny()};
-  for (int d = 0; d < 3; d++) {
-    const int at = node / stride[d] % grid.nodes[d];
-    if (at > 0) f(node - stride[d]);
-    if (at + 1 < grid.nodes[d]) f(node + stride[d]);
-  }
-}
-
 double distance2(const Vec3& a, const Vec3& b) {
   double sum = 0;
   for (int d = 0; d < 3; d++) sum += (a[d] - b[d]) * (a[d] - b[d]);
@@ -45,8 +35,7 @@ std::vector<SecondSheets::Pair> SecondSheets::seeds(const NarrowBand& band, doub
                                                     double furthest) const {
   const Grid& grid = band.grid();
   const double far2 = apart * apart * grid.spacing * grid.spacing;
-  std::vector<std::vector<Pair>> found((band.size() + chunk - 1) / chunk);
-  parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
+  auto find = [&](std::size_t begin, std::size_t end, std::vector<Pair>& found) {
     for (std::size_t s = begin; s < end; s++) {
       const double d = band.distance()[s];
       if (d < nearest - 0.5 * grid.spacing || d > furthest + 0.5 * grid.spacing) continue;
@@ -55,13 +44,11 @@ std::vector<SecondSheets::Pair> SecondSheets::seeds(const NarrowBand& band, doub
         const int t = band.slot(m);
         if (t < 0) return;
         const Vec3 q = point_of(band, t);
-        if (distance2(p, q) > far2) found[begin / chunk].push_back({band.node()[s], q});
+        if (distance2(p, q) > far2) found.push_back({band.node()[s], q});
       });
     }
-  });
-  std::vector<Pair> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  };
+  return parallel_collect<Pair>(band.size(), chunk, find);
 }
 
 bool SecondSheets::is_known(const NarrowBand& band, const Pair& pair) const {
