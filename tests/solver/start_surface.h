@@ -4,7 +4,15 @@
 
 namespace lamella {
 
-/// A start shape as the solver sees it: level set, band, and samples with their geometry.
+/// Values of a function at the nodes.
+template <class Function>
+std::vector<double> at_nodes(const Grid& grid, Function&& f) {
+  std::vector<double> values(grid.size());
+  for (std::size_t i = 0; i < values.size(); i++) values[i] = f(grid.position(i));
+  return values;
+}
+
+/// A membrane as the solver sees it: level set, band, and samples with their geometry.
 struct StartSurface {
   Grid grid;
   Fourier fourier;
@@ -12,10 +20,11 @@ struct StartSurface {
   NarrowBand band;
   SurfaceGeometry geometry;
 
-  StartSurface(const Shape& shape, const Grid& g) : grid(g), fourier(g), phi(g), band(g, 4.2) {
-    const std::vector<double> start = initial_phi(shape, grid);
-    std::copy(start.begin(), start.end(), phi.coefficients().begin());
-    phi.fit(start, fourier);
+  StartSurface(const Shape& shape, const Grid& g) : StartSurface(initial_phi(shape, g), g) {}
+  StartSurface(const std::vector<double>& nodal, const Grid& g)
+      : grid(g), fourier(g), phi(g), band(g, 4.2) {
+    std::copy(nodal.begin(), nodal.end(), phi.coefficients().begin());
+    phi.fit(nodal, fourier);
     measure();
   }
 
@@ -26,6 +35,14 @@ struct StartSurface {
     geometry.jets(phi, band);
   }
 };
+
+/// |grad phi| at the nearest points of the band's entries, 0 where unknown.
+inline std::vector<double> grad_of_entries(const StartSurface& s) {
+  std::vector<double> grad(s.band.size(), 0.0);
+  for (std::size_t i = 0; i < s.geometry.entry().size(); i++)
+    grad[s.geometry.entry()[i]] = s.geometry.grad()[i];
+  return grad;
+}
 
 inline Shape sphere(double radius) {
   Shape s;
