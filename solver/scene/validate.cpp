@@ -176,11 +176,15 @@ private:
     }
   }
 
+  /// Tells of the rule that asks for more nodes.
   void resolution() const {
     const double h = scene_.grid().spacing;
-    resolved("half-thickness", smallest_half_thickness(scene_.shape) / h, least_half_thickness);
-    resolved("radius of curvature", smallest_radius_of_curvature(scene_.shape) / h,
-             least_radius_of_curvature);
+    const double thickness = smallest_half_thickness(scene_.shape) / h,
+                 radius = smallest_radius_of_curvature(scene_.shape) / h;
+    if (thickness / least_half_thickness < radius / least_radius_of_curvature)
+      resolved("half-thickness", thickness, least_half_thickness);
+    else
+      resolved("radius of curvature", radius, least_radius_of_curvature);
   }
 
   void resolved(std::string_view what, double spacings, double least) const {

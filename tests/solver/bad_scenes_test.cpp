@@ -191,8 +191,11 @@ std::vector<BadScene> bad_scenes() {
        "0.9\n"
        "reduced_volume = 0.8\nrotation_axis = [1, 0, 0]\nrotation_angle = 90\n",
        "bad.toml:6: [shape] semi_axis:", "y = "},
-      {"TooThin", "[shape]\nreduced_volume = 0.05\n",
-       "bad.toml:2: [shape] reduced_volume: the grid is too coarse", "smallest half-thickness"},
+      {"TooThin", "[shape]\nkind = \"sphere\"\nradius = 0.02\n",
+       "bad.toml:3: [shape] radius: the grid is too coarse", "smallest half-thickness is 0.64"},
+      {"TooThinAndSharperStill", "[shape]\nreduced_volume = 0.05\n",
+       "bad.toml:2: [shape] reduced_volume: the grid is too coarse",
+       "smallest radius of curvature is 0.00703"},
       {"TooSharp", "[shape]\nkind = \"prolate\"\nreduced_volume = 0.5\n[grid]\nnodes = 40\n",
        "bad.toml:3: [shape] reduced_volume:", "smallest radius of curvature"},
       {"TooThinForAnyGrid", "[shape]\nkind = \"prolate\"\nreduced_volume = 0.05\n",
@@ -238,7 +241,7 @@ std::vector<BadScene> bad_scenes() {
       {"CurvatureNotResolved", fine + "[membrane]\nspontaneous_curvature = -40\n",
        "bad.toml:5: [membrane] spontaneous_curvature:", "at most 1; nodes = 80 would do"},
       {"BoxNotResolvedByDefaultGrid", "[grid]\nhalf_width = 100\n",
-       "bad.toml:2: [grid] half_width: the grid", "half-thickness"},
+       "bad.toml:2: [grid] half_width: the grid", "radius of curvature"},
 
       // TOML
       {"Empty", "", "bad.toml:1: the scene is empty", "allowed"},
