@@ -58,9 +58,9 @@ constexpr ExtremeCase cases[] = {
      "grid.half_width=0.375 grid.nodes=[24,24,208] volume.constraint=ramped volume.targets=0.25 "
      "volume.rate=20 run.end_time=0.1 stop.energy_rate=0.1",
      Known::prolate},
-    {"prolate v = 0.30, deflated",
+    {"prolate v = 0.36, deflated",
      "fig3_oblate shape.kind=prolate shape.semi_axis=1.31 shape.reduced_volume=0.6 "
-     "grid.half_width=0.375 grid.nodes=[24,24,176] volume.constraint=ramped volume.targets=0.3 "
+     "grid.half_width=0.375 grid.nodes=[24,24,152] volume.constraint=ramped volume.targets=0.36 "
      "volume.rate=20 run.end_time=0.1 stop.energy_rate=0.1",
      Known::prolate},
     {"prolate v = 0.40, deflated",
@@ -164,12 +164,14 @@ constexpr ExtremeCase cases[] = {
      "fig8a area_difference.targets=0.9 run.end_time=0.04 numerics.max_time_step=1e-3"},
     {"oblate, Da 1.07 to 1.3",
      "fig8a area_difference.targets=1.3 area_difference.rate=20 run.end_time=0.02"},
-    {"oblate, Da 1.07 to 2.5",
-     "fig8a area_difference.targets=2.5 area_difference.rate=100 run.end_time=0.02"},
-    {"prolate, Da 1.05 to 1.4",
-     "fig8b area_difference.targets=1.4 area_difference.rate=20 run.end_time=0.03"},
+    {"oblate, Da 1.07 to 1.3, fast",
+     "fig8a area_difference.targets=1.3 area_difference.start_times=0 area_difference.rate=1e3 "
+     "run.end_time=1e-3"},
     {"oblate, Da 1.07 to 1.3 at once",
-     "fig8a area_difference.targets=1.3 area_difference.rate=1e5 run.end_time=1e-4"},
+     "fig8a area_difference.targets=1.3 area_difference.start_times=0 area_difference.rate=1e5 "
+     "run.end_time=1e-3"},
+    {"prolate v = 0.55, Da 1.47 to 1.6", "fig8d"},
+    {"prolate v = 0.90, Da 1.05 to 1.15", "fig8b area_difference.targets=1.15"},
 };
 
 } // namespace

@@ -98,7 +98,8 @@ std::string count_of_verdicts(std::span<const CaseResult> results) {
   for (const Verdict verdict : verdicts)
     counts.push_back(fmt::format(
         "{} {}", std::ranges::count(results, verdict, &CaseResult::verdict), to_string(verdict)));
-  return fmt::format("{} cases: {}", results.size(), fmt::join(counts, ", "));
+  return fmt::format("{} case{}: {}", results.size(), results.size() == 1 ? "" : "s",
+                     fmt::join(counts, ", "));
 }
 
 std::string extremes_csv(std::span<const CaseResult> results) {
