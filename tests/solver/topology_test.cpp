@@ -68,6 +68,28 @@ TEST(Topology, OfAShellCountsTheInsideOnce) {
                   });
 }
 
+/// A ball of the given sign with the nodes (0, 0, 0) and (dx, dy, dz) of the other one inside.
+std::vector<double> ball_with_two_nodes(const Grid& grid, double sign, int dx, int dy, int dz) {
+  std::vector<double> phi = at_nodes(grid, [&](const Vec3& x) {
+    return sign * ball(x, {0, 0, 0}, 0.5);
+  });
+  const int middle = grid.nx() / 2;
+  for (const int i : {0, 1})
+    phi[grid.index(middle + i * dx, middle + i * dy, middle + i * dz)] = sign;
+  return phi;
+}
+
+TEST(Topology, NodesOutsideTouchDiagonallyTheOnesInsideDoNot) {
+  const Grid grid = Grid::cube(24, 1);
+  for (const auto& [dx, dy, dz] :
+       {std::array{1, 0, 0}, {1, 1, 0}, {0, -1, 1}, {1, 1, 1}, {1, -1, 1}}) {
+    const bool diagonal = std::abs(dx) + std::abs(dy) + std::abs(dz) > 1;
+    EXPECT_EQ(topology_of(grid, ball_with_two_nodes(grid, 1, dx, dy, dz)), (Topology{1, 0}));
+    EXPECT_EQ(topology_of(grid, ball_with_two_nodes(grid, -1, dx, dy, dz)).components,
+              diagonal ? 3 : 2);
+  }
+}
+
 TEST(Topology, OfHollowTorusIsTwo) { // an outer and an inner torus bound it
   expect_topology({1, 2}, [](const Vec3& x) {
     return std::max(ring(x, {0, 0, 0}, 0.4, 0.18), -ring(x, {0, 0, 0}, 0.4, 0.08));
