@@ -14,12 +14,6 @@ constexpr std::array<std::string_view, 8> names{"fission",     "rupture",     "f
                                                 "vanished",    "recentred",   "sharp",
                                                 "thin_inside", "thin_outside"};
 
-/// Coordinates to a thousandth, without a minus before zero.
-std::string place_text(const Vec3& place) {
-  const auto rounded = [](double x) { return std::round(1000 * x) / 1000 + 0.0; };
-  return fmt::format("({:g}, {:g}, {:g})", rounded(place[0]), rounded(place[1]), rounded(place[2]));
-}
-
 /// A length, and how many grid spacings it is.
 std::string length_text(double length, double spacing) {
   return fmt::format("{:.3g} ({:.2g} grid spacings)", length, length / spacing);
@@ -65,6 +59,11 @@ std::string change_text(const Event& event) {
 }
 
 } // namespace
+
+std::string place_text(const Vec3& place) {
+  const auto rounded = [](double x) { return std::round(1000 * x) / 1000 + 0.0; };
+  return fmt::format("({:g}, {:g}, {:g})", rounded(place[0]), rounded(place[1]), rounded(place[2]));
+}
 
 std::string_view to_string(Event::Kind kind) { return names[std::size_t(kind)]; }
 

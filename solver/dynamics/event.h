@@ -41,6 +41,9 @@ std::string_view to_string(Event::Kind kind);
 /// The other way round; nothing for another word.
 std::optional<Event::Kind> event_kind(std::string_view word);
 
+/// "(0.1, 0.2, 0)": coordinates to a thousandth, without a minus before zero.
+std::string place_text(const Vec3& place);
+
 /// One line for a person, on a grid of the given spacing: "t = 0.000251: a neck was cut at (0.1,
 /// 0.2, 0): components 1 -> 2, ..."
 std::string to_text(const Event& event, double spacing);

@@ -66,7 +66,6 @@ private:
   void note(Event event);
   Event event_now() const;
   Vec3 in_space(Vec3 place) const;
-  std::string place_text(const Vec3& place) const;
   std::string film_message(const Vec3& place) const;
 
   Contact contact_;

@@ -118,7 +118,7 @@ void Simulation::change_topology_if_needed() {
     if (!contact_.topology_changes) {
       why_not_on_ = fmt::format("the topology is about to change at {}, which "
                                 "contact.topology_changes forbids",
-                                place_text(place->at.place));
+                                place_text(in_space(place->at.place)));
       return;
     }
     const bool parted = part_at(*place);
@@ -151,15 +151,10 @@ void Simulation::note_spontaneous_change() {
   if (film) why_not_on_ = film_message(event.place);
 }
 
-std::string Simulation::place_text(const Vec3& place) const {
-  const Vec3 at = in_space(place);
-  return fmt::format("({:.3g}, {:.3g}, {:.3g})", at[0], at[1], at[2]);
-}
-
 std::string Simulation::film_message(const Vec3& place) const {
   return fmt::format("a film of inner fluid at {} has become thinner than the grid resolves; try "
                      "more grid.nodes, or keep films apart with contact.disjoining_pressure",
-                     place_text(place));
+                     place_text(in_space(place)));
 }
 
 /// False, and nothing is changed, where the energy would rise. A neck too thin for the grid parts
