@@ -72,6 +72,7 @@ bool Simulation::try_step(double dt, double latest) {
   const Constraints& constraints = vesicle_.constraints();
   const double C = vesicle_.bending().spontaneous_curvature,
                kappa = vesicle_.bending().bending_modulus;
+  const double energy = vesicle_.energy();
   double then = time() + dt;
   if (then > latest * (1 - 1e-12)) then = latest; // rounding
   gauge_.filter(vesicle_.phi(), vesicle_.band());
@@ -97,8 +98,7 @@ bool Simulation::try_step(double dt, double latest) {
   now.dt = dt;
   const bool driven = constraints.rate(then) != Quantities::Zero() ||
                       constraints.rate(time()) != Quantities::Zero();
-  if (!driven && now.energy - measures_.energy > energy_jump * measures_.bending_energy)
-    return false;
+  if (!driven && now.energy - energy > energy_jump * measures_.bending_energy) return false;
   check(now);
   excess_ = memory * excess_ + excess;
   steps_++;

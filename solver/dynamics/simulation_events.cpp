@@ -166,9 +166,21 @@ bool Simulation::part_at(const Closing& place) {
   event.size = place.at.radius;
   const Array<double> whole(vesicle_.phi().coefficients().begin(),
                             vesicle_.phi().coefficients().end());
+  auto whole_again = [&] {
+    std::ranges::copy(whole, vesicle_.phi().coefficients().begin());
+    restart();
+    return false;
+  };
   part(vesicle_.phi(), place);
-  event.area_cut = restart();
-  Measures parted = vesicle_.measures(time());
+  Measures parted;
+  try {
+    event.area_cut = restart();
+    parted = vesicle_.measures(time());
+    check(parted);
+  } catch (const RunError& e) { // nothing is left, or nothing that could go on
+    why_not_on_ = e.what();
+    return whole_again();
+  }
   const bool film = place.kind == Event::Kind::rupture;
   const bool hopeless =
       event.size <
@@ -176,14 +188,11 @@ bool Simulation::part_at(const Closing& place) {
   if (!(vesicle_.drift(time()) < worst_drift) ||
       (parted.energy > measures_.energy && (film || !hopeless))) {
     if (film && hopeless) why_not_on_ = film_message(event.place);
-    std::ranges::copy(whole, vesicle_.phi().coefficients().begin());
-    restart();
-    return false;
+    return whole_again();
   }
   const double h = grid().spacing;
   last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.bending().bending_modulus);
   parted.dt = measures_.dt;
-  check(parted);
   measures_ = parted;
   event.components_after = measures_.components;
   event.genus_after = measures_.genus;

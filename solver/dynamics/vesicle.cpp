@@ -224,13 +224,17 @@ double Vesicle::longest_step(double time) const {
   return std::min(constraints_.longest_step(time), film_.longest_step(most_film_pressure_));
 }
 
+double Vesicle::energy() const {
+  return integrals_.energy + constraints_.potential(quantities(integrals_)) + film_energy_;
+}
+
 Measures Vesicle::measures(double time) const {
   Measures m;
   const double A = integrals_.area(), V = integrals_.volume, radius = sphere_radius(A),
                pi = std::numbers::pi;
   m.time = time;
   m.bending_energy = integrals_.energy;
-  m.energy = integrals_.energy + constraints_.potential(quantities(integrals_)) + film_energy_;
+  m.energy = energy();
   m.int_KM2 = integrals_.int_KM2();
   m.P = multipliers_[0];
   m.sigma = multipliers_[1];

@@ -30,6 +30,8 @@ public:
   /// Lets an area difference that is free until now be held, where it is its time.
   bool set_out(double time);
 
+  /// All terms.
+  double energy() const;
   /// All but the step.
   Measures measures(double time) const;
   /// Largest relative deviation from the constraints.

@@ -10,7 +10,8 @@ namespace lamella {
 /// reciprocal lattice, so the sum aliases by about 1e-5 of a planar patch and far less on curved
 /// ones. It lies outside because the inside of a thin rim is the first place where nearest points
 /// cease to be unique; the Steiner factor 1 - d K_M + d^2 K of the offset surface makes up for the
-/// shift.
+/// shift. Where the membrane bends around the outside more sharply than that, at a neck, the kernel
+/// ends before the focal point and aliases more.
 struct QuadratureKernel {
   static constexpr double begin = -1, end = 3; // spacings
 

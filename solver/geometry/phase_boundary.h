@@ -1,0 +1,72 @@
+#pragma once
+#include "geometry/curve_geometry.h"
+#include "levelset/narrow_band.h"
+
+#include <span>
+#include <vector>
+
+namespace lamella {
+
+struct BoundaryPoint : CurveGeometry {
+  Eigen::Vector3d x;
+  double s;      ///< arc length from the first point of its curve
+  double weight; ///< oint f dl = sum of weight f
+};
+
+/// The phase boundary Gamma = {phi = psi = 0} as closed curves: points on Gamma in the order of t,
+/// equally spaced along each curve by half a grid spacing or less.
+///
+/// Points at equal distances and weights of equal size make sums over them converge faster than any
+/// power of their distance; what remains is the error of the splines (about h^6 in curvatures, h^8
+/// in length). Curves are told apart, and turns of one curve followed, down to half a spacing.
+class PhaseBoundary {
+public:
+  /// Finds all curves; nodal values of phi and psi, and the band of phi, up to date. Curves inside
+  /// a single cell of the grid may escape.
+  void trace(const LevelSet& phi, const LevelSet& psi, const NarrowBand& band);
+
+  std::size_t curves() const { return begin_.size() - 1; }
+  std::span<const BoundaryPoint> curve(std::size_t c) const {
+    return std::span(points_).subspan(begin_[c], begin_[c + 1] - begin_[c]);
+  }
+  /// All of them, curve after curve.
+  std::span<const BoundaryPoint> points() const { return points_; }
+  /// Places where a curve could not be followed all the way around, because phi and psi are tangent
+  /// or turn within a fraction of a spacing (domains about to merge, to part or to vanish). Such
+  /// curves are left out.
+  std::span<const Eigen::Vector3d> unresolved() const { return unresolved_; }
+
+  /// oint f(point) dl over all curves.
+  template <class F>
+  double integral(F&& f) const {
+    double sum = 0;
+    for (const BoundaryPoint& p : points_) sum += p.weight * f(p);
+    return sum;
+  }
+  /// d_s f(point) at all points, by central differences of eighth order.
+  template <class F>
+  std::vector<double> derivative(F&& f) const {
+    constexpr double w[5] = {0, 4. / 5, -1. / 5, 4. / 105, -1. / 280};
+    std::vector<double> out;
+    for (std::size_t c = 0; c < curves(); c++) {
+      const std::span<const BoundaryPoint> p = curve(c);
+      for (std::size_t i = 0, n = p.size(); i < n; i++) {
+        double sum = 0;
+        for (std::size_t m = 1; m <= 4; m++)
+          sum += w[m] * (f(p[(i + m) % n]) - f(p[(i + n - m) % n]));
+        out.push_back(sum / p[i].weight);
+      }
+    }
+    return out;
+  }
+  double length() const {
+    return integral([](const BoundaryPoint&) { return 1.0; });
+  }
+
+private:
+  std::vector<BoundaryPoint> points_;
+  std::vector<std::size_t> begin_{0};
+  std::vector<Eigen::Vector3d> unresolved_;
+};
+
+} // namespace lamella
