@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr long most_steps = 4000;
 constexpr double most_seconds = 400;
 
-// Where nothing exact is known: relative rise of the energy in a step, drift of what is held.
+// Relative: rise of the energy in a step, where nothing exact is known; drift of what is held.
 constexpr double largest_rise = 2e-3, largest_drift = 1e-3;
 
 double seconds_since(Clock::time_point begin) {
@@ -114,8 +114,9 @@ const Event* CaseResult::first_unresolved() const {
 
 bool CaseResult::is_right() const {
   const AllowedErrors allowed = allowed_errors(which.known);
-  return which.known != Known::nothing && errors.energy <= allowed.energy &&
-         !(errors.P > allowed.multipliers) && !(errors.sigma > allowed.multipliers);
+  return which.known != Known::nothing && drift <= largest_drift &&
+         errors.energy <= allowed.energy && !(errors.P > allowed.multipliers) &&
+         !(errors.sigma > allowed.multipliers);
 }
 
 Verdict CaseResult::verdict() const {

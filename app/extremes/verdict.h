@@ -18,7 +18,7 @@ enum class Ending {
 };
 
 enum class Verdict {
-  right,      ///< the known answer, within its bounds
+  right,      ///< the known answer, within its bounds; what is held was kept
   consistent, ///< nothing exact is known; the energy fell and what is held was kept
   warned,     ///< neither, but the run said that it was not resolved
   stopped,    ///< with a message

@@ -98,6 +98,12 @@ TEST(Verdicts, AreRightWithinBounds) {
   EXPECT_EQ(ended(Known::oblate, NAN, NAN).verdict(), Verdict::wrong);
 }
 
+TEST(Verdicts, AreNotRightWhereAreaOrVolumeIsLost) {
+  CaseResult result = ended(Known::oblate, 0, 0);
+  result.drift = 2e-3;
+  EXPECT_EQ(result.verdict(), Verdict::wrong);
+}
+
 TEST(Verdicts, CountAWarning) {
   CaseResult result = ended(Known::oblate, 4e-4, 0);
   result.events.push_back(unresolved());
