@@ -1,5 +1,6 @@
 #include "dynamics/constraints.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -160,6 +161,16 @@ Multipliers Constraints::multipliers(const SurfaceIntegrals& integrals,
   const Eigen::Vector3d moments =
       integrals.variation + rate.cwiseQuotient(to_quantity) - integrals.gram * given;
   return given + combination(integrals.gram, moments);
+}
+
+bool Constraints::is_delicate(const SurfaceIntegrals& integrals) const {
+  if (held_[2]) return true;
+  constexpr double little = 0.03; // of independence: least eigenvalue of the correlations
+  const Eigen::Vector3d scale = integrals.gram.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix3d correlation = scale.asDiagonal() * integrals.gram * scale.asDiagonal();
+  const Eigen::MatrixXd held = correlation(indices_, indices_);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(held, Eigen::EigenvaluesOnly)
+             .eigenvalues()[0] < little;
 }
 
 double Constraints::drift(const Quantities& now, double time) const {

@@ -60,6 +60,10 @@ public:
   /// changes for each direction.
   Eigen::Vector3d combination(const Eigen::Matrix3d& effect, const Quantities& change) const;
 
+  /// Corrections must be made with care: the area difference is held, or 1 and K_M are almost
+  /// dependent on this membrane, a long tube, so that a small correction takes a long way.
+  bool is_delicate(const SurfaceIntegrals& integrals) const;
+
   /// Largest relative deviation of a held quantity from its target.
   double drift(const Quantities& now, double time) const;
 

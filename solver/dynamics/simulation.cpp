@@ -99,6 +99,12 @@ bool Simulation::try_step(double dt, double latest) {
   const bool driven = constraints.rate(then) != Quantities::Zero() ||
                       constraints.rate(time()) != Quantities::Zero();
   if (!driven && now.energy - energy > energy_jump * measures_.bending_energy) return false;
+  if (broke_film(now)) {
+    const CriticalPoint* film = narrowest_place().second;
+    const std::string message = film_message(film ? film->place : Vec3{});
+    go_back();
+    throw RunError(message);
+  }
   check(now);
   excess_ = memory * excess_ + excess;
   steps_++;

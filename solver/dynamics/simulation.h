@@ -59,6 +59,8 @@ private:
   void change_topology_if_needed();
   std::optional<Closing> closing_place() const;
   bool part_at(const Closing& place);
+  std::pair<bool, const CriticalPoint*> narrowest_place() const;
+  bool broke_film(const Measures& m) const;
   void note_spontaneous_change();
   void note_unresolved();
   void recentre_if_needed();

@@ -14,7 +14,7 @@ namespace {
 // Spacings. Of the membrane from a side of the box, at which the box follows it.
 constexpr double recentre_margin = 3.5;
 // Smaller radii of curvature and half-widths of gaps are reported as unresolved.
-constexpr double least_radius = 0.85, least_half_gap = 0.8;
+constexpr double least_radius = 0.76, least_half_gap = 0.8;
 
 constexpr double worst_drift = 1e-4;      // of the constraints, after parting
 constexpr int most_cuts = 16;             // at one time
@@ -128,27 +128,35 @@ void Simulation::change_topology_if_needed() {
   }
 }
 
-/// A change that the last step made. Necks and gaps may close by themselves; a film that does is
-/// beyond the grid, and what is left of it means nothing.
+/// The place where sheets are nearest: through the outside, a gap, or through the inside.
+std::pair<bool, const CriticalPoint*> Simulation::narrowest_place() const {
+  const bool gap =
+      !outside_.empty() && (inside_.empty() || outside_.front().radius < inside_.front().radius);
+  const std::vector<CriticalPoint>& places = gap ? outside_ : inside_;
+  return {gap, places.empty() ? nullptr : &places.front()};
+}
+
+/// The step that led to `m` broke a film: a hole has opened, and not because a gap closed. What is
+/// left of a film that breaks below the grid's resolution means nothing.
+bool Simulation::broke_film(const Measures& m) const {
+  return m.genus > topology_.genus && !narrowest_place().first;
+}
+
+/// A change of topology that a step made. Necks and gaps may close by themselves.
 void Simulation::note_spontaneous_change() {
   Event event = event_now();
   event.components_before = topology_.components;
   event.genus_before = topology_.genus;
   topology_ = {measures_.components, measures_.genus};
-  const bool gap =
-      !outside_.empty() && (inside_.empty() || outside_.front().radius < inside_.front().radius);
-  const std::vector<CriticalPoint>& places = gap ? outside_ : inside_;
-  if (!places.empty()) {
-    event.place = places.front().place;
-    event.size = places.front().radius;
+  const auto [gap, place] = narrowest_place();
+  if (place) {
+    event.place = place->place;
+    event.size = place->radius;
   }
-  const bool film = !gap && event.genus_after > event.genus_before;
   event.kind = gap                                                ? Event::Kind::fusion
-               : film                                             ? Event::Kind::rupture
                : event.components_after > event.components_before ? Event::Kind::fission
                                                                   : Event::Kind::vanished;
   note(event);
-  if (film) why_not_on_ = film_message(event.place);
 }
 
 std::string Simulation::film_message(const Vec3& place) const {

@@ -22,8 +22,8 @@ constexpr double force_limit = 1;
 constexpr double start_drift = 1e-4, negligible_drift = 5e-7, worst_drift = 5e-6;
 constexpr int most_corrections = 12;
 constexpr double longest_displacement = 0.3;
-// Spacings; displaced further than that, the membrane needs samples that it did not before. (With
-// the area difference held, always: int K_M dA feels to first order that points displaced along
+// Spacings; displaced further than that, the membrane needs samples that it did not before. (Where
+// the constraints are delicate, always: curvatures feel to first order that points displaced along
 // their normals are no longer the nearest ones.)
 constexpr double far_displacement = 0.02;
 
@@ -93,8 +93,8 @@ double Vesicle::drift(double time) const {
 
 /// Displaces the membrane by combinations of 1, K_M, K until it has the quantities that are held.
 void Vesicle::lead_to_constraints(double time) {
-  // Near shapes of extreme area difference the least correction takes a long way.
-  const double negligible = constraints_.is_held(2) ? worst_drift : negligible_drift;
+  delicate_ = constraints_.is_delicate(integrals_);
+  const double negligible = delicate_ ? worst_drift : negligible_drift; // it would go a long way
   if (drift(time) < negligible) return measure_forces(time);
   set_directions();
   const Eigen::Matrix3d effect = effect_of_directions();
@@ -104,9 +104,9 @@ void Vesicle::lead_to_constraints(double time) {
   }
 }
 
-/// The displacements 1, K_M, K of the held quantities, as phi takes them: what a change of
-/// coefficients moves the membrane by is a little smoother than its nodal values. That counts where
-/// the three are almost dependent, near shapes of extreme area difference.
+/// The displacements 1, K_M, K of the held quantities; where the constraints are delicate, as phi
+/// takes them: what a change of coefficients moves the membrane by is a little smoother than its
+/// nodal values.
 void Vesicle::set_directions() {
   for (const int m : constraints_.held()) {
     std::vector<double>&nodal = directions_[m].nodal, &moves = directions_[m].moves;
@@ -119,7 +119,7 @@ void Vesicle::set_directions() {
       nodal[surface_.entry()[i]] = function(i) * surface_.grad()[i];
     extension_.complete(0, nodal);
     for (std::size_t s = 0; s < band_.size(); s++) nodal[s] *= band_.taper()[s];
-    if (constraints_.is_held(2))
+    if (delicate_)
       evaluate_on_membrane(nodal, moves);
     else
       for (std::size_t i = 0; i < surface_.size(); i++) moves[i] = function(i);
@@ -173,7 +173,7 @@ void Vesicle::displace(const Eigen::Vector3d& u) {
     for (const int m : constraints_.held()) change += u[m] * directions_[m].nodal[s];
     c[band_.node()[s]] -= scale * change;
   }
-  if (constraints_.is_held(2) || greatest > far_displacement * grid().spacing) {
+  if (delicate_ || greatest > far_displacement * grid().spacing) {
     locate();
     surface_.curvatures(phi_, band_);
     set_directions();

@@ -82,6 +82,7 @@ private:
   SurfaceIntegrals integrals_;
   Multipliers multipliers_ = Multipliers::Zero();
   std::array<Direction, 3> directions_;
+  bool delicate_ = false;         // the constraints, as last seen
   Array<double> field_;           // on the grid; 0 off the band
   std::vector<double> variation_; // F at the samples
   std::vector<double> work_;

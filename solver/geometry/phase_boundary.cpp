@@ -18,21 +18,24 @@ using Curve = std::vector<BoundaryPoint>;
 constexpr double point_distance = 0.5, shortest_step = 1e-3;
 constexpr std::size_t least_points = 24; // of a curve, however small
 constexpr double turn = 0.3;             // angle that a step may take
-constexpr double longest_newton_step = 0.5, converged = 1e-9;
+constexpr double sharpest_arc = 1;       // angle; curvatures of more are limited to it
+constexpr double longest_newton_step = 1;
 constexpr double trusted = 0.1;      // correction of a predicted point, in steps
-constexpr double seed_reach = 1.5;   // a seed further from its cell's middle belongs to other cells
+constexpr double psi_margin = 0.5;   // of its variation in a cell
+constexpr double same_place = 1;     // where two curves end
 constexpr double same_point = 0.3;   // a seed so near a curve's point, with its direction, is on it
 constexpr double transversal = 0.05; // sine of the angle between the gradients
-constexpr int seed_iterations = 8, iterations = 4;
 
 /// The quintic between two points of a curve that has their tangents and curvatures; u in [0, 1] is
 /// nearly its arc length over `length`. The error of the length is of the seventh order or higher.
 struct Arc {
-  const BoundaryPoint &a, &b;
+  Vector3d start, chord, t0, t1, k0, k1; ///< tangents and curvatures at the ends
   double length;
 
-  Arc(const BoundaryPoint& from, const BoundaryPoint& to)
-      : a(from), b(to), length((to.x - from.x).norm()) {
+  Arc(const BoundaryPoint& a, const BoundaryPoint& b)
+      : start(a.x), chord(b.x - a.x), t0(a.t), t1(b.t), k0(a.curvature()), k1(b.curvature()),
+        length(chord.norm()) {
+    for (Vector3d* k : {&k0, &k1}) *k *= std::min(1.0, sharpest_arc / (k->norm() * length));
     constexpr double node = 0.7745966692414834; // Gauss rule of three points
     for (int round = 0; round < 4; round++)
       length = (5 * velocity(0.5 - 0.5 * node).norm() + 8 * velocity(0.5).norm() +
@@ -41,17 +44,16 @@ struct Arc {
   }
 
   Vector3d position(double u) const {
-    const double u2 = u * u, u3 = u2 * u, v = 1 - u, v3 = v * v * v;
-    return a.x + u3 * (10 - 15 * u + 6 * u2) * (b.x - a.x) +
-           length * (u * v3 * (1 + 3 * u) * a.t - u3 * v * (4 - 3 * u) * b.t) +
-           0.5 * length * length * (u2 * v3 * a.curvature() + u3 * v * v * b.curvature());
+    const double u2 = u * u, u3 = u2 * u, v = 1 - u, v2 = v * v, v3 = v2 * v;
+    return start + u3 * (10 - 15 * u + 6 * u2) * chord +
+           length * (u * v3 * (1 + 3 * u) * t0 - u3 * v * (4 - 3 * u) * t1) +
+           0.5 * length * length * (u2 * v3 * k0 + u3 * v2 * k1);
   }
   Vector3d velocity(double u) const {
     const double u2 = u * u, v = 1 - u, v2 = v * v;
-    return 30 * u2 * v2 * (b.x - a.x) +
-           length * (v2 * (1 + 2 * u - 15 * u2) * a.t - u2 * (12 - 28 * u + 15 * u2) * b.t) +
-           0.5 * length * length *
-               (u * v2 * (2 - 5 * u) * a.curvature() + u2 * v * (3 - 5 * u) * b.curvature());
+    return 30 * u2 * v2 * chord +
+           length * (v2 * (1 + 2 * u - 15 * u2) * t0 - u2 * (12 - 28 * u + 15 * u2) * t1) +
+           0.5 * length * length * (u * v2 * (2 - 5 * u) * k0 + u2 * v * (3 - 5 * u) * k1);
   }
 };
 
@@ -67,7 +69,7 @@ public:
   };
   Walk walk(const BoundaryPoint& start, std::size_t most_points) const;
   /// The closed curve with equally spaced points; none where Newton's method fails.
-  std::optional<Curve> finish(Curve walked) const;
+  std::optional<Curve> finish(const Curve& walked) const;
 
 private:
   struct Foot {
@@ -76,7 +78,7 @@ private:
     bool regular;
   };
   std::vector<Foot> feet(std::span<const Vector3d> points) const;
-  Curve on_boundary(std::vector<Vector3d> points, int iterations) const;
+  Curve on_boundary(std::vector<Vector3d> points, int iterations, double tolerance) const;
   std::optional<BoundaryPoint> advance(const BoundaryPoint& from, double& step) const;
   std::vector<Vector3d> equally_spaced(const Curve& curve) const;
 
@@ -96,12 +98,13 @@ std::vector<Tracer::Foot> Tracer::feet(std::span<const Vector3d> points) const {
   return out;
 }
 
-/// Newton's method from each point; those that do not arrive are left out.
-Curve Tracer::on_boundary(std::vector<Vector3d> points, int iterations) const {
+/// Newton's method from each point; those that do not come within `tolerance` spacings of Gamma are
+/// left out.
+Curve Tracer::on_boundary(std::vector<Vector3d> points, int iterations, double tolerance) const {
   Curve found;
   for (int it = 0;; it++) {
     const std::vector<Foot> at = feet(points);
-    auto arrived = [&](const Foot& f) { return f.regular && f.step.norm() < converged * h_; };
+    auto arrived = [&](const Foot& f) { return f.regular && f.step.norm() < tolerance * h_; };
     if (it == iterations || std::ranges::all_of(at, arrived)) {
       for (const Foot& f : at)
         if (arrived(f)) found.push_back(f.point);
@@ -114,26 +117,31 @@ Curve Tracer::on_boundary(std::vector<Vector3d> points, int iterations) const {
   }
 }
 
-/// Points of Gamma, one or more in every cell of the grid in which both phi and psi change sign.
+/// Points of Gamma, by Newton's method from the middle of every cell of the grid in which phi
+/// changes sign and psi does or nearly does: stripes and caps may fit between the nodes.
 Curve Tracer::seeds(const NarrowBand& band) const {
   const Grid& grid = band.grid();
-  auto changes_sign = [&](const LevelSet& f, std::size_t node) {
-    bool sign[2] = {false, false};
-    for (int corner = 0; corner < 8; corner++)
-      sign[f.nodal()[node + grid.index(corner & 1, corner >> 1 & 1, corner >> 2)] < 0] = true;
-    return sign[0] && sign[1];
+  auto may_vanish = [&](const LevelSet& f, std::size_t node, double beyond) {
+    double least = 1e300, most = -1e300;
+    for (int corner = 0; corner < 8; corner++) {
+      const double v = f.nodal()[node + grid.index(corner & 1, corner >> 1 & 1, corner >> 2)];
+      least = std::min(least, v);
+      most = std::max(most, v);
+    }
+    const double margin = beyond * (most - least);
+    return least - margin < 0 && most + margin >= 0;
   };
   auto find = [&](std::size_t begin, std::size_t end, std::vector<Vector3d>& found) {
     for (std::size_t s = begin; s < end; s++) {
       const int node = band.node()[s], i = node % grid.nx(), j = node / grid.nx() % grid.ny(),
                 k = node / grid.nx() / grid.ny();
       if (i + 1 == grid.nx() || j + 1 == grid.ny() || k + 1 == grid.nz()) continue;
-      if (!changes_sign(phi_, node) || !changes_sign(psi_, node)) continue;
+      if (!may_vanish(phi_, node, 0) || !may_vanish(psi_, node, psi_margin)) continue;
       const Vec3 x = grid.position(node);
       found.push_back(Vector3d(x[0], x[1], x[2]).array() + 0.5 * h_);
     }
   };
-  return on_boundary(parallel_collect<Vector3d>(band.size(), 4096, find), seed_iterations);
+  return on_boundary(parallel_collect<Vector3d>(band.size(), 4096, find), 4, 0.02);
 }
 
 /// The next point along t, `step` or less away: predicted with the curvature, corrected by Newton's
@@ -186,15 +194,12 @@ std::vector<Vector3d> Tracer::equally_spaced(const Curve& curve) const {
   return points;
 }
 
-/// Of the rounds, the first leaves the points' distances unequal by what the walk's own points were
-/// off, the second by less than a part in a million.
-std::optional<Curve> Tracer::finish(Curve curve) const {
-  for (int round = 0; round < 2; round++) {
-    std::vector<Vector3d> points = equally_spaced(curve);
-    const std::size_t n = points.size();
-    curve = on_boundary(std::move(points), iterations);
-    if (curve.size() < n) return {};
-  }
+/// Spacings come out equal to about 1e-8, to 2e-6 with turns of radius 2 h (measured).
+std::optional<Curve> Tracer::finish(const Curve& walked) const {
+  std::vector<Vector3d> points = equally_spaced(walked);
+  const std::size_t n = points.size();
+  Curve curve = on_boundary(std::move(points), 4, 1e-9);
+  if (curve.size() < n) return {};
   double s = 0;
   for (std::size_t i = 0; i < curve.size(); i++) {
     BoundaryPoint &a = curve[i], &b = curve[(i + 1) % curve.size()];
@@ -240,10 +245,14 @@ void PhaseBoundary::trace(const LevelSet& phi, const LevelSet& psi, const Narrow
     if (curve) {
       points_.insert(points_.end(), curve->begin(), curve->end());
       begin_.push_back(points_.size());
-    } else
-      unresolved_.push_back(walk.points.back().x);
+    } else {
+      const Vector3d end = walk.points.back().x;
+      auto near = [&](const Vector3d& x) { return (x - end).norm() < same_place * h; };
+      if (std::ranges::none_of(unresolved_, near)) unresolved_.push_back(end);
+    }
     seeds.pop_back();
-    remove_seeds(seeds, curve ? *curve : walk.points, h);
+    remove_seeds(seeds, walk.points, h); // these go around the sharpest corners too
+    if (curve) remove_seeds(seeds, *curve, h);
   }
 }
 
