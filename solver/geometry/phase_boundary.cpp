@@ -21,9 +21,9 @@ constexpr double turn = 0.3;             // angle that a step may take
 constexpr double sharpest_arc = 1;       // angle; curvatures of more are limited to it
 constexpr double longest_newton_step = 1;
 constexpr double trusted = 0.1;      // correction of a predicted point, in steps
-constexpr double psi_margin = 0.5;   // of its variation in a cell
-constexpr double same_place = 1;     // where two curves end
-constexpr double same_point = 0.3;   // a seed so near a curve's point, with its direction, is on it
+constexpr double psi_margin = 0.5;   // beyond its values in a cell, of their range
+constexpr double same_place = 1;     // of two ends
+constexpr double same_point = 0.3;   // from a curve's point, in its direction: on the curve
 constexpr double transversal = 0.05; // sine of the angle between the gradients
 
 /// The quintic between two points of a curve that has their tangents and curvatures; u in [0, 1] is

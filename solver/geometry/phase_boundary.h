@@ -21,8 +21,8 @@ struct BoundaryPoint : CurveGeometry {
 /// in length). Curves are told apart, and turns of one curve followed, down to half a spacing.
 class PhaseBoundary {
 public:
-  /// Finds all curves; nodal values of phi and psi, and the band of phi, up to date. Curves inside
-  /// a single cell of the grid may escape.
+  /// Finds all curves; nodal values of phi and psi, and the band of phi, up to date. Curves of
+  /// half a spacing across may escape.
   void trace(const LevelSet& phi, const LevelSet& psi, const NarrowBand& band);
 
   std::size_t curves() const { return begin_.size() - 1; }
