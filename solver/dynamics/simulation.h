@@ -56,6 +56,7 @@ private:
 
   // events: simulation_events.cpp
   void find_narrow_places();
+  long steps_until_narrow() const;
   void change_topology_if_needed();
   std::optional<Closing> closing_place() const;
   bool part_at(const Closing& place);
@@ -84,7 +85,7 @@ private:
   double error_ = 0;                       // of the last step
   double last_dt_ = 0;                     // 0: none yet
   double response_dt_ = 0;                 // the step that the responses were found for
-  long steps_ = 0, renormalised_ = 0, next_parting_ = 0;
+  long steps_ = 0, renormalised_ = 0, next_parting_ = 0, next_search_ = 0;
   std::array<int, 3> cells_{}; // by which the box has moved
   Topology topology_;
   Measures measures_;

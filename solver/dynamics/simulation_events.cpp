@@ -110,7 +110,9 @@ std::optional<Closing> Simulation::closing_place() const {
 /// lowers the energy.
 void Simulation::change_topology_if_needed() {
   if (topology_ != Topology{measures_.components, measures_.genus}) note_spontaneous_change();
+  if (steps_ < next_search_) return;
   find_narrow_places();
+  next_search_ = steps_ + steps_until_narrow();
   if (steps_ < next_parting_) return;
   for (int cuts = 0; cuts < most_cuts; cuts++) {
     const std::optional<Closing> place = closing_place();
@@ -126,6 +128,17 @@ void Simulation::change_topology_if_needed() {
     if (!parted || place->kind == Event::Kind::rupture) return;
     find_narrow_places();
   }
+}
+
+/// How many steps the nearest of what was found, or the next there may be, takes at least to become
+/// narrow enough to part: a step moves the membrane by a quarter of a spacing at most.
+long Simulation::steps_until_narrow() const {
+  const double h = grid().spacing;
+  const ClosingRule rule{vesicle_.bending().bending_modulus, contact_.rupture_thickness};
+  double nearest = rule.reach(h);
+  for (const auto* places : {&inside_, &outside_})
+    if (!places->empty()) nearest = std::min(nearest, places->front().radius);
+  return std::max(1L, long((nearest - rule.least_reach(h)) / (0.25 * h)));
 }
 
 /// The place where sheets are nearest: through the outside, a gap, or through the inside.

@@ -25,10 +25,11 @@ Eigen::Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 } // namespace
 
-double ClosingRule::reach(double spacing) const {
-  return std::max({neck_radius * spacing, film_radius * spacing, 0.5 * rupture_thickness}) +
-         0.9 * spacing;
+double ClosingRule::least_reach(double spacing) const {
+  return std::max({neck_radius * spacing, film_radius * spacing, 0.5 * rupture_thickness});
 }
+
+double ClosingRule::reach(double spacing) const { return least_reach(spacing) + 0.9 * spacing; }
 
 bool ClosingRule::is_film(const CriticalPoint& point) {
   return point.stiffness[1] < film_anisotropy * point.stiffness[2];

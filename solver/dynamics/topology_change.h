@@ -25,6 +25,8 @@ struct ClosingRule {
 
   /// How far inside the membrane critical points need be looked for; a length.
   double reach(double spacing) const;
+  /// Those further inside than this do not part yet.
+  double least_reach(double spacing) const;
 
   /// Whether a critical point inside is such a place. `speed`: at which the membrane around closes
   /// in on it.

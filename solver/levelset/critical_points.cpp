@@ -1,5 +1,6 @@
 #include "levelset/critical_points.h"
 
+#include "levelset/taylor.h"
 #include "parallel.h"
 
 #include <Eigen/Eigenvalues>
@@ -15,21 +16,12 @@ constexpr double flat = 0.75; // of the slope on the membrane; less is near a cr
 constexpr double another_direction = 0.3; // cosine
 constexpr double search_radius = 1.5;     // spacings from the node where the search begins
 constexpr double longest_step = 0.6;      // spacings
+constexpr double hopeless_step = 4;       // spacings; there is nothing near
 constexpr double same = 0.5;              // spacings between points that are one
 constexpr int iterations = 8;
 
-struct Taylor {
-  double value;
-  Eigen::Vector3d gradient;
-  Eigen::Matrix3d hessian;
-};
-
 Taylor taylor_at(const LevelSet& phi, const Eigen::Vector3d& x) {
-  double o[10];
-  kernels().taylor(phi.view(), 1, {&x[0], &x[1], &x[2]}, o);
-  Taylor t{o[0], {o[1], o[2], o[3]}, {}};
-  t.hessian << o[4], o[7], o[8], o[7], o[5], o[9], o[8], o[9], o[6];
-  return t;
+  return taylor(phi, {&x, 1}).front();
 }
 
 double slope_at_node(const LevelSet& phi, int node) {
@@ -89,24 +81,51 @@ std::vector<int> candidates(const LevelSet& phi, const NarrowBand& band,
   return parallel_collect<int>(band.size(), chunk, find);
 }
 
-/// Newton's method for grad phi = 0; false if there is no such point near the start.
-bool find_near(const LevelSet& phi, const Eigen::Vector3d& start, Eigen::Vector3d& x, Taylor& t) {
+/// Where Newton's method for grad phi = 0 leads from a node.
+struct Search {
+  int node;
+  Eigen::Vector3d start, x;
+  Taylor at{};
+};
+
+/// The searches that end at a critical point near their node, in order.
+void search(const LevelSet& phi, std::vector<Search> open, std::vector<Search>& ended) {
   const double h = phi.grid().spacing;
-  x = start;
-  for (int i = 0; i < iterations; i++) {
-    t = taylor_at(phi, x);
-    Eigen::Vector3d step = -t.hessian.inverse() * t.gradient;
-    if (!step.allFinite()) return false;
-    const double length = step.norm();
-    if (length > longest_step * h) step *= longest_step * h / length;
-    x += step;
-    if ((x - start).norm() > search_radius * h) return false;
-    if (length < 1e-3 * h) {
-      t = taylor_at(phi, x);
-      return true;
+  for (int i = 0; i < iterations && !open.empty(); i++) {
+    std::vector<Eigen::Vector3d> points;
+    for (const Search& s : open) points.push_back(s.x);
+    const std::vector<Taylor> at = taylor(phi, points);
+    std::vector<Search> still_open;
+    for (std::size_t k = 0; k < open.size(); k++) {
+      Search& s = open[k];
+      s.at = at[k];
+      Eigen::Vector3d step = -at[k].hessian.inverse() * at[k].gradient;
+      const double length = step.norm();
+      if (!(length < hopeless_step * h)) continue;
+      if (length < 1e-3 * h) {
+        ended.push_back(s);
+        continue;
+      }
+      if (length > longest_step * h) step *= longest_step * h / length;
+      s.x += step;
+      if ((s.x - s.start).norm() < search_radius * h) still_open.push_back(s);
     }
+    open = std::move(still_open);
   }
-  return false;
+  std::ranges::sort(ended, {}, &Search::node);
+}
+
+std::vector<Search> search_from(const LevelSet& phi, std::span<const int> nodes) {
+  constexpr std::size_t chunk = 128;
+  auto search_chunk = [&](std::size_t begin, std::size_t end, std::vector<Search>& ended) {
+    std::vector<Search> open;
+    for (std::size_t i = begin; i < end; i++) {
+      const Vec3 p = phi.grid().position(nodes[i]);
+      open.push_back({nodes[i], {p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
+    }
+    search(phi, std::move(open), ended);
+  };
+  return parallel_collect<Search>(nodes.size(), chunk, search_chunk);
 }
 
 /// Length of the way from x along a direction to {phi = 0}, by Newton's method from a guess.
@@ -150,13 +169,11 @@ std::vector<CriticalPoint> critical_points(const LevelSet& phi, const NarrowBand
                                            bool inside) {
   const double h = phi.grid().spacing;
   std::vector<CriticalPoint> points;
-  for (const int node : candidates(phi, band, grad, reach, inside)) {
-    const Vec3 start = phi.grid().position(node);
-    Eigen::Vector3d x;
-    Taylor t;
-    if (!find_near(phi, {start[0], start[1], start[2]}, x, t) || (t.value < 0) != inside) continue;
-    const auto near = [&](const CriticalPoint& q) {
-      return (Eigen::Vector3d(q.place[0], q.place[1], q.place[2]) - x).norm() < same * h;
+  for (const auto& [node, start, x, t] :
+       search_from(phi, candidates(phi, band, grad, reach, inside))) {
+    if ((t.value < 0) != inside) continue;
+    const auto near = [h, &at = x](const CriticalPoint& q) {
+      return (Eigen::Vector3d(q.place[0], q.place[1], q.place[2]) - at).norm() < same * h;
     };
     if (std::ranges::any_of(points, near)) continue;
     CriticalPoint q{{x[0], x[1], x[2]}, t.value, {}, {}, 1e300, {}};

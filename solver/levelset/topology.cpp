@@ -3,6 +3,9 @@
 #include "parallel.h"
 
 #include <array>
+#include <bit>
+#include <cstdint>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -90,30 +93,62 @@ int count_parts(const Grid& grid, std::span<const double> phi, bool inside) {
   return sets.count;
 }
 
+/// The inside nodes of a row along x as bits.
+class Row {
+public:
+  Row(const double* phi, int n) : n_(n), used_((n + 63) / 64) {
+    if (n > most) throw std::length_error("rows have at most 512 nodes");
+    for (int i = 0; i < n; i++) words_[i / 64] |= std::uint64_t(phi[i] < 0) << (i % 64);
+  }
+  /// Bit i of a row shifted by one: its neighbour i + 1, periodic.
+  Row shifted() const {
+    Row r = *this;
+    for (int w = 0; w < used_; w++)
+      r.words_[w] = words_[w] >> 1 | (w + 1 < used_ ? words_[w + 1] << 63 : 0);
+    r.words_[used_ - 1] |= (words_[0] & 1) << ((n_ - 1) % 64);
+    return r;
+  }
+  Row operator&(const Row& other) const {
+    Row r = *this;
+    for (int w = 0; w < used_; w++) r.words_[w] &= other.words_[w];
+    return r;
+  }
+  int count() const {
+    int sum = 0;
+    for (int w = 0; w < used_; w++) sum += std::popcount(words_[w]);
+    return sum;
+  }
+  /// Vertices less edges along x.
+  int vertices_less_edges() const { return count() - (*this & shifted()).count(); }
+
+private:
+  static constexpr int most = 512;
+  int n_, used_;
+  std::array<std::uint64_t, most / 64> words_{};
+};
+
 /// Vertices - edges + faces - cubes of the cubical complex of the inside nodes.
 int euler_characteristic(const Grid& grid, std::span<const double> phi) {
   const int nx = grid.nx(), ny = grid.ny(), nz = grid.nz();
   return parallel_sum<int>(nz, 4, [&](std::size_t begin, std::size_t end) {
+    auto plane = [&](int k) {
+      std::vector<Row> rows;
+      for (int j = 0; j < ny; j++) rows.emplace_back(&phi[grid.index(0, j, k % nz)], nx);
+      return rows;
+    };
     int sum = 0;
-    for (int k = int(begin); k < int(end); k++)
+    std::vector<Row> here = plane(int(begin));
+    for (int k = int(begin); k < int(end); k++) {
+      std::vector<Row> above = plane(k + 1);
       for (int j = 0; j < ny; j++) {
-        const int up = (j + 1) % ny, above = (k + 1) % nz;
-        const double* row[4] = {&phi[grid.index(0, j, k)], &phi[grid.index(0, up, k)],
-                                &phi[grid.index(0, j, above)], &phi[grid.index(0, up, above)]};
-        // Of the cells that start at a node: its share with x fixed, and with its x-neighbour.
-        auto across = [&](int i) {
-          const int a = row[0][i] < 0, b = row[1][i] < 0, c = row[2][i] < 0, d = row[3][i] < 0;
-          return std::array{a - (a & b) - (a & c) + (a & b & c & d), a | b << 1 | c << 2 | d << 3};
-        };
-        auto last = across(nx - 1);
-        for (int i = 0; i < nx; i++) {
-          const auto here = across(i);
-          const int both = last[1] & here[1];
-          const int a = both & 1, b = both >> 1 & 1, c = both >> 2 & 1, d = both >> 3;
-          sum += here[0] - a + (a & b) + (a & c) - (a & b & c & d);
-          last = here;
-        }
+        const int up = (j + 1) % ny;
+        const Row along_y = here[j] & here[up], along_z = here[j] & above[j];
+        sum += here[j].vertices_less_edges() - along_y.vertices_less_edges() -
+               along_z.vertices_less_edges() +
+               (along_y & (above[j] & above[up])).vertices_less_edges();
       }
+      here = std::move(above);
+    }
     return sum;
   });
 }
