@@ -50,7 +50,7 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier)
   constraints_ = Constraints(without);
   constraints_.begin(begin);
   measure(0);
-  if (drift(0) < start_drift) begin = quantities(integrals_);
+  if (drift(0) > worst_drift && drift(0) < start_drift) begin = quantities(integrals_); // a sphere
   begin[2] = integrals_.int_KM();
   constraints_ = Constraints(scene);
   constraints_.begin(begin);
