@@ -26,10 +26,6 @@ Quantities quantities(const SurfaceIntegrals& integrals) {
   return {integrals.volume, integrals.area(), integrals.int_KM()};
 }
 
-Eigen::Matrix3d effect_of_functions(const SurfaceIntegrals& integrals) {
-  return to_quantity.asDiagonal() * integrals.gram;
-}
-
 Constraints::Constraints(const Scene& scene)
     : courses_{{{scene.volume.constraint, scene.volume.ramp},
                 {Constraint::fixed, {}},

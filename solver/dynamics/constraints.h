@@ -22,9 +22,6 @@ inline Quantities change_from(const Eigen::Vector3d& moments) {
   return {moments[0], -moments[1], -2 * moments[2]};
 }
 
-/// Changes of the quantities by the displacements 1, K_M, K, a column each.
-Eigen::Matrix3d effect_of_functions(const SurfaceIntegrals& integrals);
-
 /// Which quantities are held, where they are led to, and the multipliers of those that are free.
 ///
 /// Every vector has a component for each of the three; those of free quantities do not count.
