@@ -49,6 +49,51 @@ struct Membrane {
   bool operator==(const Membrane&) const = default;
 };
 
+/// Where the Ld domains are at the start; the rest of the membrane is Lo. none: one phase.
+enum class DomainsKind { none, cap, caps, frame };
+
+/// Domains of a start shape, each a cap around a direction from the centre of the shape (after its
+/// rotation). Which members count depends on the kind.
+struct Domains {
+  DomainsKind kind = DomainsKind::none;
+  double area_fraction = 0.5;   ///< cap: of the whole membrane
+  Vec3 direction{0, 0, 1};      ///< cap: any length but zero
+  std::vector<Vec3> directions; ///< caps: one each
+  double half_angle = 20;       ///< caps: of each, seen from the centre; degrees
+  /// caps on a sphere: degrees between the membrane at the rim and the plane of the rim; half_angle
+  /// for one flush with the sphere, more bulges outwards, less than 0 dimples inwards. 0: flush.
+  double bulge = 0;
+  std::string file; ///< frame: a stored state with phases, or a run's folder for its last one
+
+  bool operator==(const Domains&) const = default;
+};
+
+/// Elastic moduli of one phase: Helfrich's, and gaussian_modulus int K dA.
+struct Phase {
+  double bending_modulus = 1;
+  double spontaneous_curvature = 0;
+  double gaussian_modulus = 0;
+
+  bool operator==(const Phase&) const = default;
+};
+
+/// Energy of the phase boundary, oint (tension + geodesic_modulus kg + torsion_modulus tau_g +
+/// normal_modulus kn) dl (Eq. 85).
+struct Line {
+  double tension = 0;
+  double geodesic_modulus = 0, torsion_modulus = 0, normal_modulus = 0;
+
+  bool operator==(const Line&) const = default;
+};
+
+/// Local incompressibility: a field c of the area per lipid over its rest value, with the energy
+/// modulus / 2 int [(1 - c)^2 + (1 - 1 / c)^2] dA. modulus 0: there is no such field.
+struct Stretch {
+  double modulus = 0; ///< mu, energy / length^2
+
+  bool operator==(const Stretch&) const = default;
+};
+
 /// fixed: as it is at the start. ramped: led to given values. free: under a given multiplier.
 enum class Constraint { fixed, ramped, free };
 
@@ -126,8 +171,14 @@ struct Scene {
   double half_width = 1; ///< of the box along its shortest axis
   Shape shape;
   Perturbation perturbation;
-  Membrane membrane;
-  VolumeConstraint volume; ///< the area is always fixed
+  Membrane membrane; ///< without domains
+  Domains domains;
+  Phase ld, lo; ///< with domains
+  Line line;    ///< with domains
+  /// With domains: spontaneous curvatures are 0 until then.
+  double curvature_start_time = 0;
+  Stretch stretch;
+  VolumeConstraint volume; ///< the areas, of each phase, are always fixed
   AreaDifferenceConstraint area_difference;
   Contact contact;
   double end_time = 1.6e-3;
@@ -136,6 +187,7 @@ struct Scene {
   Output output;
 
   Grid grid() const;
+  bool has_phases() const { return domains.kind != DomainsKind::none; }
   bool operator==(const Scene&) const = default;
 };
 

@@ -7,12 +7,15 @@
 
 namespace lamella {
 
-/// The state at one time: nodal values of the level set phi, negative inside.
+/// The state at one time: nodal values of the level set phi, negative inside, and of the fields on
+/// the membrane that the scene has.
 struct Frame {
   Grid grid;
   double time = 0;
   std::vector<double> phi;    ///< grid.size() values, x fastest
   std::array<int, 3> cells{}; ///< the box has moved by so many spacings to follow the vesicle
+  std::vector<double> psi{};  ///< phases: negative in Ld, positive in Lo; empty: one phase
+  std::vector<double> c{};    ///< local stretch; empty: none
 };
 
 /// Write a frame as VTKHDF ImageData (opens in ParaView >= 5.11). The file appears whole or not at
