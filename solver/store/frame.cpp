@@ -29,6 +29,17 @@ constexpr std::size_t most_inflation = 1100; // deflate reaches 1032
 constexpr int deflate_level = 1;
 constexpr hsize_t chunk_planes = 8;
 
+/// Values at the nodes, and the name of their data array.
+struct NodalField {
+  const char* name;
+  std::vector<double> Frame::*values;
+};
+/// The first one is in every frame.
+constexpr std::array<NodalField, 3> fields{
+    {{"phi", &Frame::phi}, {"psi", &Frame::psi}, {"c", &Frame::c}}};
+
+bool is_optional(const NodalField& field) { return &field != &fields.front(); }
+
 constexpr std::string_view trailer_mark = "lamella frame, FNV-1a ";
 constexpr std::size_t trailer_size = trailer_mark.size() + 16 + 1;
 
@@ -59,13 +70,16 @@ void check(const std::filesystem::path& file, const Frame& frame) {
                        frame.grid.ny(), frame.grid.nz()));
   if (!(frame.grid.spacing > 0) || !std::isfinite(frame.grid.spacing))
     refuse(fmt::format("the grid spacing is {}", frame.grid.spacing));
-  if (frame.phi.size() != frame.grid.size())
-    refuse(
-        fmt::format("phi has {} values, the grid {} nodes", frame.phi.size(), frame.grid.size()));
+  for (const NodalField& field : fields) {
+    const std::vector<double>& values = frame.*field.values;
+    if (values.size() != frame.grid.size() && !(values.empty() && is_optional(field)))
+      refuse(fmt::format("{} has {} values, the grid {} nodes", field.name, values.size(),
+                         frame.grid.size()));
+    if (!all_finite(values)) refuse(fmt::format("{} has values that are not finite", field.name));
+  }
   if (std::ranges::any_of(frame.cells, [](int n) { return std::abs(n) > most_cells; }))
     refuse(fmt::format("the box has moved by ({}) cells", fmt::join(frame.cells, ", ")));
   if (!std::isfinite(frame.time)) refuse(fmt::format("the time is {}", frame.time));
-  if (!all_finite(frame.phi)) refuse("phi has values that are not finite");
 }
 
 // Writing: HDF5 works in memory here and can fail for want of memory only.
@@ -110,20 +124,18 @@ void write_attribute(hid_t object, const char* name, const std::array<int, n>& v
   write_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT, n, values.data());
 }
 
-void write_type_attribute(hid_t object) {
-  constexpr std::string_view value = "ImageData";
+void write_attribute(hid_t object, const char* name, std::string_view value) {
   const H5Handle type = owned(H5Tcopy(H5T_C_S1));
   required(H5Tset_size(type, value.size()));
   required(H5Tset_strpad(type, H5T_STR_NULLPAD));
   const H5Handle space = owned(H5Screate(H5S_SCALAR));
-  const H5Handle attribute =
-      owned(H5Acreate2(object, "Type", type, space, H5P_DEFAULT, H5P_DEFAULT));
+  const H5Handle attribute = owned(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
   required(H5Awrite(attribute, type, value.data()));
 }
 
-void write_phi(hid_t group, const Frame& frame) {
-  const std::array<hsize_t, 3> size{hsize_t(frame.grid.nz()), hsize_t(frame.grid.ny()),
-                                    hsize_t(frame.grid.nx())};
+void write_field(hid_t group, const char* name, const Grid& grid,
+                 const std::vector<double>& values) {
+  const std::array<hsize_t, 3> size{hsize_t(grid.nz()), hsize_t(grid.ny()), hsize_t(grid.nx())};
   const std::array<hsize_t, 3> chunk{std::min(size[0], chunk_planes), size[1], size[2]};
   const H5Handle properties = creation(H5P_DATASET_CREATE);
   required(H5Pset_chunk(properties, 3, chunk.data()));
@@ -131,15 +143,24 @@ void write_phi(hid_t group, const Frame& frame) {
   required(H5Pset_deflate(properties, deflate_level));
   const H5Handle space = owned(H5Screate_simple(3, size.data(), nullptr));
   const H5Handle data =
-      owned(H5Dcreate2(group, "phi", H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT));
-  required(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, frame.phi.data()));
+      owned(H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT));
+  required(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+}
+
+/// Where there are several fields, says which of them readers show first.
+void write_fields(hid_t points, const Frame& frame) {
+  for (const NodalField& field : fields)
+    if (const std::vector<double>& values = frame.*field.values; !values.empty())
+      write_field(points, field.name, frame.grid, values);
+  if (!frame.psi.empty() || !frame.c.empty())
+    write_attribute(points, "Scalars", fields.front().name);
 }
 
 void write_contents(hid_t file, const Frame& frame) {
   const Grid& grid = frame.grid;
   const H5Handle vtk = create_group(file, "VTKHDF");
   write_attribute(vtk, "Version", std::array{1, 0});
-  write_type_attribute(vtk);
+  write_attribute(vtk, "Type", "ImageData");
   write_attribute(vtk, "WholeExtent",
                   std::array{0, grid.nx() - 1, 0, grid.ny() - 1, 0, grid.nz() - 1});
   Vec3 origin;
@@ -148,7 +169,7 @@ void write_contents(hid_t file, const Frame& frame) {
   write_attribute(vtk, "Spacing", Vec3{grid.spacing, grid.spacing, grid.spacing});
   write_attribute(vtk, "Direction", std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
   const H5Handle points = create_group(vtk, "PointData");
-  write_phi(points, frame);
+  write_fields(points, frame);
   const H5Handle lamella = create_group(file, "lamella");
   write_attribute(lamella, "time", std::array{frame.time});
 }
@@ -206,9 +227,11 @@ public:
     frame.cells = read_cells(vtk, frame.grid);
     const H5Handle lamella = required(H5Gopen2(file, "lamella", H5P_DEFAULT), "no group lamella");
     frame.time = read_attribute<double, 1>(lamella, "time")[0];
-    frame.phi = read_phi(vtk, frame.grid);
-    if (!std::isfinite(frame.time) || !all_finite(frame.phi))
-      refuse("it has values that are not finite");
+    if (!std::isfinite(frame.time)) refuse("it has values that are not finite");
+    const H5Handle points = required(H5Gopen2(vtk, "PointData", H5P_DEFAULT), "no PointData");
+    for (const NodalField& field : fields)
+      if (!is_optional(field) || H5Lexists(points, field.name, H5P_DEFAULT) > 0)
+        frame.*field.values = read_field(points, field.name, frame.grid);
     return frame;
   }
 
@@ -228,7 +251,7 @@ private:
     const auto size = std::filesystem::file_size(file_, error);
     if (error)
       throw StoreError(fmt::format("{}: cannot be read: {}", file_.string(), error.message()));
-    if (size <= trailer_size || size > most_nodes * sizeof(double) * 2)
+    if (size <= trailer_size || size > most_nodes * sizeof(double) * (fields.size() + 1))
       refuse("its size is out of range");
     std::ifstream stream(file_, std::ios::binary);
     std::vector<std::byte> bytes(size);
@@ -285,28 +308,32 @@ private:
     return cells;
   }
 
-  std::vector<double> read_phi(hid_t vtk, const Grid& grid) const {
-    const H5Handle data = required(H5Dopen2(vtk, "PointData/phi", H5P_DEFAULT), "no PointData/phi");
-    const H5Handle type = required(H5Dget_type(data), "PointData/phi has no type");
-    const H5Handle space = required(H5Dget_space(data), "PointData/phi has no size");
-    const H5Handle layout = required(H5Dget_create_plist(data), "PointData/phi has no layout");
+  std::vector<double> read_field(hid_t points, const char* name, const Grid& grid) const {
+    const auto trouble = [&](const char* what) {
+      return fmt::format("PointData/{} {}", name, what);
+    };
+    const H5Handle data = required(H5Dopen2(points, name, H5P_DEFAULT), trouble("is missing"));
+    const H5Handle type = required(H5Dget_type(data), trouble("has no type"));
+    const H5Handle space = required(H5Dget_space(data), trouble("has no size"));
+    const H5Handle layout = required(H5Dget_create_plist(data), trouble("has no layout"));
     const std::array<hsize_t, 3> expected{hsize_t(grid.nz()), hsize_t(grid.ny()),
                                           hsize_t(grid.nx())};
     std::array<hsize_t, 3> size{}, chunk{};
     if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(double))
-      refuse("PointData/phi is not of doubles");
+      refuse(trouble("is not of doubles"));
     if (H5Sget_simple_extent_ndims(space) != 3 ||
         H5Sget_simple_extent_dims(space, size.data(), nullptr) != 3 || size != expected)
-      refuse("PointData/phi does not agree with WholeExtent");
+      refuse(trouble("does not agree with WholeExtent"));
     if (H5Pget_layout(layout) != H5D_CHUNKED || H5Pget_chunk(layout, 3, chunk.data()) != 3 ||
         !std::ranges::equal(chunk, size, std::ranges::less_equal{}))
-      refuse("PointData/phi is not chunked as frames are");
+      refuse(trouble("is not chunked as frames are"));
     if (grid.size() * sizeof(double) > most_inflation * image_.size())
-      refuse("PointData/phi is larger than what the file can hold");
-    std::vector<double> phi(grid.size());
-    if (H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, phi.data()) < 0)
-      refuse("PointData/phi is damaged");
-    return phi;
+      refuse(trouble("is larger than what the file can hold"));
+    std::vector<double> values(grid.size());
+    if (H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+      refuse(trouble("is damaged"));
+    if (!all_finite(values)) refuse(trouble("has values that are not finite"));
+    return values;
   }
 
   std::filesystem::path file_;

@@ -18,8 +18,8 @@ struct Frame {
   std::vector<double> c{};    ///< local stretch; empty: none
 };
 
-/// Write a frame as VTKHDF ImageData (opens in ParaView >= 5.11). The file appears whole or not at
-/// all. Throws StoreError.
+/// Write a frame as VTKHDF ImageData (opens in ParaView >= 5.11) with point data phi, and psi and c
+/// where the frame has them. The file appears whole or not at all. Throws StoreError.
 void write_frame(const std::filesystem::path& file, const Frame& frame);
 
 /// Read what write_frame wrote. Throws StoreError for anything else, a damaged file included.
