@@ -108,7 +108,7 @@ int run(const RunOptions& options) {
     remark("interrupted before the run began; nothing was written");
     return interrupted;
   }
-  RunFolder folder(path, scene);
+  RunFolder folder(path, scene, sim.measures());
   say(opening(scene, origin));
 
   Course course(sim.measures());

@@ -105,11 +105,12 @@ void refuse_unsuitable(const fs::path& folder, bool force) {
   });
 }
 
-RunFolder::RunFolder(const fs::path& folder, const Scene& scene) : folder_(folder) {
+RunFolder::RunFolder(const fs::path& folder, const Scene& scene, const Measures& start)
+    : folder_(folder) {
   Scene stored = scene;
-  std::optional<Frame> start; // read before anything is removed: it may be in this very folder
+  std::optional<Frame> state; // read before anything is removed: it may be in this very folder
   if (scene.shape.kind == ShapeKind::frame) {
-    start = read_frame(scene.shape.file);
+    state = read_frame(scene.shape.file);
     stored.shape.file = start_file;
   }
   or_store_error(folder, "cannot be used as output folder", [&] {
@@ -117,8 +118,8 @@ RunFolder::RunFolder(const fs::path& folder, const Scene& scene) : folder_(folde
     erase_run(folder);
     try {
       write_text_atomically(folder / scene_file, to_toml(stored));
-      if (start) write_frame(folder / start_file, *start);
-      history_.emplace(folder / history_file);
+      if (state) write_frame(folder / start_file, *state);
+      history_.emplace(folder / history_file, start);
       events_.emplace(folder / events_file);
       fs::create_directories(folder / frames_folder);
     } catch (...) {

@@ -26,9 +26,9 @@ void refuse_unsuitable(const std::filesystem::path& folder, bool force);
 ///   summary.txt             the outcome in words
 class RunFolder {
 public:
-  /// Creates the folder, or removes what an earlier run left there and nothing else. Throws
-  /// StoreError.
-  RunFolder(const std::filesystem::path& folder, const Scene& scene);
+  /// Creates the folder, or removes what an earlier run left there and nothing else. The history
+  /// has the columns of `start`. Throws StoreError.
+  RunFolder(const std::filesystem::path& folder, const Scene& scene, const Measures& start);
 
   void add(const Measures& measures) { history_->add(measures); }
   void add(const Frame& frame);

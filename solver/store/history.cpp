@@ -5,17 +5,52 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace lamella {
 namespace {
 
 template <class Record>
-std::vector<Record> read_records(const std::filesystem::path& file, std::string_view what) {
-  Record any;
+std::vector<Record> read_records(const std::filesystem::path& file, std::string_view what,
+                                 Record like) {
   std::vector<Record> records;
-  read_table(file, what, row_of(any), [&] { return row_of(records.emplace_back()); });
+  read_table(file, what, row_of(like), [&] { return row_of(records.emplace_back(like)); });
   return records;
+}
+
+void append(Row& row, PhaseMeasures& m) {
+  row.insert(row.end(), {{"bending_Ld", &m.bending_energy_Ld},
+                         {"bending_Lo", &m.bending_energy_Lo},
+                         {"gaussian_energy", &m.gaussian_energy},
+                         {"line_energy", &m.line_energy},
+                         {"sigma_Ld", &m.sigma_Ld},
+                         {"sigma_Lo", &m.sigma_Lo},
+                         {"A_Ld", &m.area_Ld},
+                         {"A_Lo", &m.area_Lo},
+                         {"dA_Ld_rel", &m.area_Ld_drift},
+                         {"line_length", &m.line_length},
+                         {"line_radius", &m.line_radius},
+                         {"max_line_speed", &m.max_line_speed},
+                         {"domains_Ld", &m.domains_Ld},
+                         {"domains_Lo", &m.domains_Lo}});
+}
+
+void append(Row& row, StretchMeasures& m) {
+  row.insert(row.end(),
+             {{"stretch_energy", &m.energy}, {"c_min", &m.least}, {"c_max", &m.greatest}});
+}
+
+/// Measures with the columns that a file has.
+Measures measures_in(const std::filesystem::path& file) {
+  const std::vector<std::string> columns = read_columns(file);
+  const auto has = [&](std::string_view column) {
+    return std::ranges::find(columns, column) != columns.end();
+  };
+  Measures measures;
+  if (has("A_Ld")) measures.phases.emplace();
+  if (has("c_min")) measures.stretch.emplace();
+  return measures;
 }
 
 std::string json_text(std::string_view text) {
@@ -34,7 +69,7 @@ std::string json_text(std::string_view text) {
 } // namespace
 
 Row row_of(Measures& m) {
-  return {{"t", &m.time},
+  Row row{{"t", &m.time},
           {"dt", &m.dt},
           {"energy", &m.energy},
           {"bending_energy", &m.bending_energy},
@@ -51,6 +86,9 @@ Row row_of(Measures& m) {
           {"max_speed", &m.max_speed},
           {"components", &m.components},
           {"genus", &m.genus}};
+  if (m.phases) append(row, *m.phases);
+  if (m.stretch) append(row, *m.stretch);
+  return row;
 }
 
 Row row_of(Event& e) {
@@ -74,11 +112,11 @@ Row row_of(Event& e) {
 }
 
 std::vector<Measures> read_history(const std::filesystem::path& file) {
-  return read_records<Measures>(file, "history");
+  return read_records(file, "history", measures_in(file));
 }
 
 std::vector<Event> read_events(const std::filesystem::path& file) {
-  return read_records<Event>(file, "table of events");
+  return read_records(file, "table of events", Event{});
 }
 
 void write_series(const std::filesystem::path& file, std::span<const SeriesEntry> entries) {

@@ -10,7 +10,8 @@
 
 namespace lamella {
 
-/// The columns of history.csv and of events.csv, with the values of one row.
+/// The columns of history.csv and of events.csv, with the values of one row. Those of phases and of
+/// stretch are there where the measures have them.
 Row row_of(Measures& measures);
 Row row_of(Event& event);
 
@@ -18,13 +19,12 @@ Row row_of(Event& event);
 template <class Record>
 class RecordWriter {
 public:
-  /// Replaces the file.
-  explicit RecordWriter(const std::filesystem::path& file) : RecordWriter(file, Record{}) {}
+  /// Replaces the file; for records with the same columns as `like`.
+  explicit RecordWriter(const std::filesystem::path& file, Record like = {})
+      : table_(file, row_of(like)) {}
   void add(Record record) { table_.add(row_of(record)); }
 
 private:
-  RecordWriter(const std::filesystem::path& file, Record any) : table_(file, row_of(any)) {}
-
   TableWriter table_;
 };
 

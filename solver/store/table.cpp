@@ -66,7 +66,7 @@ bool parse_row(std::string_view line, const Row& row) {
 } // namespace
 
 TableWriter::TableWriter(const std::filesystem::path& file, const Row& columns)
-    : path_(file), file_(file, O_CREAT | O_TRUNC | O_APPEND) {
+    : path_(file), file_(file, O_CREAT | O_TRUNC | O_APPEND), columns_(columns.size()) {
   append(header(columns));
 }
 
@@ -82,6 +82,9 @@ void TableWriter::append(const std::string& line) {
 }
 
 void TableWriter::add(const Row& row) {
+  if (row.size() != columns_)
+    throw StoreError(fmt::format("{}: row not written: it has {} values for {} columns",
+                                 path_.string(), row.size(), columns_));
   std::string line;
   for (const Field& field : row) {
     const std::string text = std::visit([](auto value) { return text_of(value); }, field.value);
@@ -91,6 +94,17 @@ void TableWriter::add(const Row& row) {
     line += fmt::format("{}{}", line.empty() ? "" : ",", text);
   }
   append(line);
+}
+
+std::vector<std::string> read_columns(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw_system_error(file, "read");
+  std::string line;
+  std::getline(stream, line);
+  std::vector<std::string> columns;
+  std::string_view rest = line, column;
+  while (next_text(rest, column)) columns.emplace_back(column);
+  return columns;
 }
 
 void read_table(const std::filesystem::path& file, std::string_view what, const Row& columns,

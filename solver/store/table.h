@@ -25,7 +25,8 @@ public:
   /// Replaces the file. Throws StoreError, as add does.
   TableWriter(const std::filesystem::path& file, const Row& columns);
 
-  /// Refuses numbers that are not finite. After a failure the file still ends with a whole row.
+  /// Refuses numbers that are not finite and rows of other columns. After a failure the file still
+  /// ends with a whole row.
   void add(const Row& row);
 
 private:
@@ -33,8 +34,12 @@ private:
 
   std::filesystem::path path_;
   PosixFile file_;
+  std::size_t columns_;
   std::size_t size_ = 0; ///< of the whole rows
 };
+
+/// The names in the first line of a table. Throws StoreError where the file cannot be read.
+std::vector<std::string> read_columns(const std::filesystem::path& file);
 
 /// Reads a table into rows that `add_row` supplies. Throws StoreError for anything but what a
 /// TableWriter with the same columns wrote, with the line; `what` is the name of such a table.

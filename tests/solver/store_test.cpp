@@ -97,6 +97,23 @@ protected:
     return frame;
   }
 
+  static Frame sample_with_phases() {
+    Frame frame = sample();
+    for (std::size_t n = 0; n < frame.grid.size(); ++n) {
+      const auto [x, y, z] = frame.grid.position(n);
+      frame.psi.push_back(std::cos(5 * y) - x * z);
+      frame.c.push_back(1 + 0.01 * std::sin(9 * z + x));
+    }
+    return frame;
+  }
+
+  /// Equal to the last bit.
+  static void expect_same(const std::vector<double>& values, const std::vector<double>& expected) {
+    ASSERT_EQ(values.size(), expected.size());
+    EXPECT_TRUE(values.empty() ||
+                std::memcmp(values.data(), expected.data(), values.size() * sizeof(double)) == 0);
+  }
+
   fs::path file() const { return folder_ / "frame_0001.hdf"; }
 
   static std::string checksum_line(std::string_view image) {
@@ -111,8 +128,9 @@ protected:
   /// A frame in which a run of values is replaced by another, and which has the right checksum all
   /// the same.
   template <class T>
-  std::string forged(const std::vector<T>& from, const std::vector<T>& to) const {
-    write_frame(file(), sample());
+  std::string forged(const std::vector<T>& from, const std::vector<T>& to,
+                     const Frame& frame = sample()) const {
+    write_frame(file(), frame);
     std::string bytes = content_of(file());
     bytes.resize(bytes.size() - checksum_line("").size());
     const std::string_view pattern(reinterpret_cast<const char*>(from.data()),
@@ -131,15 +149,31 @@ protected:
 };
 
 TEST_F(FrameStore, ReadsWhatItWroteToTheLastBit) {
-  const Frame frame = sample();
+  for (const Frame& frame : {sample(), sample_with_phases()}) {
+    write_frame(file(), frame);
+    const Frame back = read_frame(file());
+    EXPECT_EQ(back.grid, frame.grid);
+    EXPECT_EQ(back.time, frame.time);
+    EXPECT_EQ(back.cells, frame.cells);
+    expect_same(back.phi, frame.phi);
+    expect_same(back.psi, frame.psi);
+    expect_same(back.c, frame.c);
+    EXPECT_EQ(files(), 1u);
+  }
+}
+
+TEST_F(FrameStore, StoresEachFieldByItself) {
+  Frame frame = sample_with_phases();
+  frame.psi.clear();
   write_frame(file(), frame);
-  const Frame back = read_frame(file());
-  EXPECT_EQ(back.grid, frame.grid);
-  EXPECT_EQ(back.time, frame.time);
-  EXPECT_EQ(back.cells, frame.cells);
-  ASSERT_EQ(back.phi.size(), frame.phi.size());
-  EXPECT_EQ(std::memcmp(back.phi.data(), frame.phi.data(), frame.phi.size() * sizeof(double)), 0);
-  EXPECT_EQ(files(), 1u);
+  EXPECT_TRUE(read_frame(file()).psi.empty());
+  expect_same(read_frame(file()).c, frame.c);
+  EXPECT_THAT(content_of(file()), HasSubstr("Scalars")) << "readers are told which comes first";
+
+  frame.c.clear();
+  write_frame(file(), frame);
+  write_frame(folder_ / "plain.hdf", sample());
+  EXPECT_EQ(content_of(file()), content_of(folder_ / "plain.hdf")) << "no trace of fields";
 }
 
 TEST_F(FrameStore, PutsTheVesicleWhereTheBoxHasMovedTo) {
@@ -161,6 +195,10 @@ TEST_F(FrameStore, EqualFramesMakeEqualFiles) {
   write_frame(file(), sample());
   write_frame(folder_ / "again.hdf", sample());
   EXPECT_EQ(content_of(file()), content_of(folder_ / "again.hdf"));
+  write_frame(file(), sample_with_phases());
+  EXPECT_NE(content_of(file()), content_of(folder_ / "again.hdf"));
+  write_frame(folder_ / "again.hdf", sample_with_phases());
+  EXPECT_EQ(content_of(file()), content_of(folder_ / "again.hdf"));
 }
 
 TEST_F(FrameStore, ReplacesAnOlderFrame) {
@@ -173,7 +211,7 @@ TEST_F(FrameStore, ReplacesAnOlderFrame) {
 TEST_F(FrameStore, RefusesFramesThatNoReaderWouldTake) {
   put(file(), "older");
   const auto message = [&](auto change) {
-    Frame frame = sample();
+    Frame frame = sample_with_phases();
     change(frame);
     return message_of([&] { write_frame(file(), frame); });
   };
@@ -183,6 +221,13 @@ TEST_F(FrameStore, RefusesFramesThatNoReaderWouldTake) {
   EXPECT_THAT(message([](Frame& f) { f.time = nan; }), HasSubstr("the time is nan"));
   EXPECT_THAT(message([](Frame& f) { f.phi.pop_back(); }),
               HasSubstr("phi has 1919 values, the grid 1920"));
+  EXPECT_THAT(message([](Frame& f) { f.phi.clear(); }),
+              HasSubstr("phi has 0 values, the grid 1920"));
+  EXPECT_THAT(message([](Frame& f) { f.psi.push_back(1); }), HasSubstr("psi has 1921 values"));
+  EXPECT_THAT(message([](Frame& f) { f.c.resize(5); }), HasSubstr("c has 5 values"));
+  EXPECT_THAT(message([](Frame& f) { f.psi[0] = infinity; }),
+              HasSubstr("psi has values that are not finite"));
+  EXPECT_THAT(message([](Frame& f) { f.c[7] = nan; }), HasSubstr("c has values that are not"));
   EXPECT_THAT(message([](Frame& f) { f.grid.spacing = 0; }), HasSubstr("spacing"));
   EXPECT_THAT(message([](Frame& f) { f.grid.nodes[1] = -12; }), HasSubstr("16 x -12 x 10 nodes"));
   EXPECT_THAT(message([](Frame& f) { f.cells[2] = -1000001; }),
@@ -224,23 +269,27 @@ TEST_F(FrameStore, KeepsTheOlderFrameWhenTheDiskIsFull) {
 }
 
 TEST_F(FrameStore, RefusesEveryTruncatedFile) {
-  write_frame(file(), sample());
-  const std::string whole = content_of(file());
-  for (std::size_t size = 0; size < whole.size(); size += 97)
-    ASSERT_THAT(message_for(whole.substr(0, size)),
-                StartsWith(file().string() + ": cannot be read as a frame"))
-        << size;
-  EXPECT_THAT(message_for(whole.substr(0, whole.size() - 1)), HasSubstr("cut off"));
-  EXPECT_THAT(message_for(whole + "\n"), HasSubstr("cut off"));
+  for (const Frame& frame : {sample(), sample_with_phases()}) {
+    write_frame(file(), frame);
+    const std::string whole = content_of(file());
+    for (std::size_t size = 0; size < whole.size(); size += 97)
+      ASSERT_THAT(message_for(whole.substr(0, size)),
+                  StartsWith(file().string() + ": cannot be read as a frame"))
+          << size;
+    EXPECT_THAT(message_for(whole.substr(0, whole.size() - 1)), HasSubstr("cut off"));
+    EXPECT_THAT(message_for(whole + "\n"), HasSubstr("cut off"));
+  }
 }
 
 TEST_F(FrameStore, RefusesEveryFlippedBit) {
-  write_frame(file(), sample());
-  const std::string whole = content_of(file());
-  for (std::size_t n = 0; n < whole.size(); n += 61) {
-    std::string damaged = whole;
-    damaged[n] = static_cast<char>(damaged[n] ^ (1 << (n % 8)));
-    ASSERT_THAT(message_for(damaged), HasSubstr("cannot be read as a frame")) << n;
+  for (const Frame& frame : {sample(), sample_with_phases()}) {
+    write_frame(file(), frame);
+    const std::string whole = content_of(file());
+    for (std::size_t n = 0; n < whole.size(); n += 61) {
+      std::string damaged = whole;
+      damaged[n] = static_cast<char>(damaged[n] ^ (1 << (n % 8)));
+      ASSERT_THAT(message_for(damaged), HasSubstr("cannot be read as a frame")) << n;
+    }
   }
 }
 
@@ -290,6 +339,31 @@ TEST_F(FrameStore, RefusesForgedFilesBeforeAllocating) {
   EXPECT_THAT(message_for(forged(size, huge)), HasSubstr("does not agree with WholeExtent"));
 }
 
+TEST_F(FrameStore, RefusesForgedPhases) {
+  const Frame frame = sample_with_phases();
+  using Bytes = std::vector<char>;
+  const auto renamed = [&](const Bytes& from, const Bytes& to) {
+    return message_for(forged(from, to, frame));
+  };
+  const Bytes psi{'\0', 'p', 's', 'i', '\0'}, phi{'\0', 'p', 'h', 'i', '\0'};
+  EXPECT_EQ(renamed(psi, psi), "no StoreError");
+  EXPECT_THAT(renamed(phi, {'\0', 'p', 'h', 'j', '\0'}), HasSubstr("PointData/phi is missing"));
+
+  // The size of the second field in the file, beside that of the first.
+  using Integers = std::vector<std::int64_t>;
+  const Integers size{10, 12, 16, 10, 12, 16}, other{10, 16, 12, 10, 16, 12};
+  std::string bytes = forged(size, size, frame);
+  const auto pattern = [](const Integers& values) {
+    return std::string(reinterpret_cast<const char*>(values.data()), values.size() * 8);
+  };
+  const auto second = bytes.find(pattern(size), bytes.find(pattern(size)) + 1);
+  ASSERT_NE(second, bytes.npos);
+  bytes.replace(second, pattern(size).size(), pattern(other));
+  bytes.resize(bytes.size() - checksum_line("").size());
+  EXPECT_THAT(message_for(bytes + checksum_line(bytes)),
+              HasSubstr("PointData/psi does not agree with WholeExtent"));
+}
+
 class HistoryStore : public Store {
 protected:
   static Measures row(double time) {
@@ -301,6 +375,14 @@ protected:
       *x = value, value = -1.01 * value - 1e-7;
     m.components = 2;
     m.genus = -3;
+    return m;
+  }
+
+  /// Every column of phases and stretch has a value of its own.
+  static Measures row_with_phases(double time) {
+    Measures m = row(time);
+    m.phases = {18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
+    m.stretch = {32, 33, 34};
     return m;
   }
 
@@ -334,9 +416,57 @@ TEST_F(HistoryStore, KeepsRowsToTwelveDigits) {
 }
 
 TEST_F(HistoryStore, NamesItsColumnsInTheOrderOfMeasures) {
-  Measures m{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
+  Measures m{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, {}, {}};
   HistoryWriter(file()).add(m);
   EXPECT_EQ(content_of(file()), history_header + "\n1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17\n");
+}
+
+TEST_F(HistoryStore, NamesTheColumnsOfPhasesAndOfStretchWhereThereAreSome) {
+  Measures m{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, {}, {}};
+  m.phases = row_with_phases(0).phases;
+  const std::string phases_header = history_header +
+                                    ",bending_Ld,bending_Lo,gaussian_energy,line_energy,sigma_Ld,"
+                                    "sigma_Lo,A_Ld,A_Lo,dA_Ld_rel,line_length,line_radius,"
+                                    "max_line_speed,domains_Ld,domains_Lo",
+                    phases_row = "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24,"
+                                 "25,26,27,28,29,30,31";
+  HistoryWriter(file(), m).add(m);
+  EXPECT_EQ(content_of(file()), phases_header + "\n" + phases_row + "\n");
+  m.stretch = row_with_phases(0).stretch;
+  HistoryWriter(file(), m).add(m);
+  EXPECT_EQ(content_of(file()),
+            phases_header + ",stretch_energy,c_min,c_max\n" + phases_row + ",32,33,34\n");
+}
+
+TEST_F(HistoryStore, ReadsPhasesAndStretchWhereThereAreSome) {
+  Measures with_stretch = row_with_phases(2);
+  with_stretch.phases.reset();
+  for (const Measures& like : {row(1), row_with_phases(1), with_stretch}) {
+    HistoryWriter writer(file(), like);
+    EXPECT_TRUE(read_history(file()).empty());
+    writer.add(like);
+    const Measures back = read_history(file()).at(0);
+    ASSERT_EQ(back.phases.has_value(), like.phases.has_value());
+    if (like.phases) {
+      EXPECT_EQ(back.phases->bending_energy_Ld, 18);
+      EXPECT_EQ(back.phases->domains_Lo, 31);
+    }
+    ASSERT_EQ(back.stretch.has_value(), like.stretch.has_value());
+    if (like.stretch) {
+      EXPECT_EQ(back.stretch->greatest, 34);
+    }
+  }
+}
+
+TEST_F(HistoryStore, RefusesRowsOfOtherColumns) {
+  HistoryWriter writer(file(), row_with_phases(0));
+  EXPECT_THAT(message_of([&] { writer.add(row(1)); }),
+              HasSubstr("row not written: it has 17 values for 34 columns"));
+  writer.add(row_with_phases(2));
+  EXPECT_EQ(read_history(file()).size(), 1u);
+  Measures bad = row_with_phases(3);
+  bad.phases->sigma_Lo = infinity;
+  EXPECT_THAT(message_of([&] { writer.add(bad); }), HasSubstr("sigma_Lo is inf at t = 3"));
 }
 
 TEST_F(HistoryStore, RefusesRowsThatAreNotFinite) {
@@ -386,6 +516,7 @@ TEST_F(HistoryStore, ReadsNothingButHistories) {
   EXPECT_THAT(message("t,dt\n"), HasSubstr("csv:1: not a history: the first line"));
   EXPECT_THAT(message(history_header), HasSubstr("csv:1:"));
   EXPECT_THAT(message(history_header + ",x\n"), HasSubstr("csv:1:"));
+  EXPECT_THAT(message(history_header + ",A_Ld\n"), HasSubstr("csv:1:")) << "not without the others";
   for (const std::string& bad :
        {good + ",18\n", good + ",\n", good, std::string("1,2,3\n"), std::string("\n"),
         "x" + good + "\n", " " + good + "\n", good + " \n",
