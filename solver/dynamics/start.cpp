@@ -1,6 +1,7 @@
 #include "dynamics/start.h"
 
 #include "error.h"
+#include "scene/domains.h"
 #include "scene/shapes.h"
 #include "store/frame.h"
 
@@ -15,24 +16,48 @@ std::string grid_text(const Grid& grid) {
                      grid.spacing);
 }
 
-} // namespace
-
-Start start_of(const Scene& scene) {
-  const Grid grid = scene.grid();
-  if (scene.shape.kind != ShapeKind::frame)
-    return {.phi = initial_phi(scene.shape, grid, scene.perturbation),
-            .exact = Start::Exact{exact_area(scene.shape), exact_volume(scene.shape)}};
-  Frame frame = read_frame(scene.shape.file);
+Frame frame_on(const Grid& grid, const std::string& file) {
+  Frame frame = read_frame(file);
   if (frame.grid != grid)
     throw RunError(
         fmt::format("the frame has {}, the scene {}; grid.nodes and grid.half_width must "
                     "be those of the frame",
                     grid_text(frame.grid), grid_text(grid)));
-  return {.phi = std::move(frame.phi),
-          .psi = std::move(frame.psi),
-          .c = std::move(frame.c),
-          .exact = {},
-          .cells = frame.cells};
+  return frame;
+}
+
+/// The phases of a stored state, in the box of the frame that the membrane is from.
+std::vector<double> stored_psi(const Scene& scene, const Frame& membrane) {
+  const std::string& own_file = scene.domains.file;
+  Frame frame = own_file.empty() ? membrane : frame_on(scene.grid(), own_file);
+  if (frame.psi.empty())
+    throw RunError(fmt::format("the frame {} has one phase; domains.kind must be \"none\", or "
+                               "domains.file a frame with two phases",
+                               own_file.empty() ? scene.shape.file : own_file));
+  std::array<int, 3> cells = membrane.cells;
+  for (int i = 0; i < 3; ++i) cells[i] -= frame.cells[i];
+  shift(frame.grid, cells, frame.psi);
+  return std::move(frame.psi);
+}
+
+Start stored_start(const Scene& scene) {
+  Frame frame = frame_on(scene.grid(), scene.shape.file);
+  Start start{.cells = frame.cells};
+  if (scene.has_phases()) start.psi = stored_psi(scene, frame);
+  if (scene.stretch.modulus > 0) start.c = std::move(frame.c);
+  start.phi = std::move(frame.phi);
+  return start;
+}
+
+} // namespace
+
+Start start_of(const Scene& scene) {
+  if (scene.shape.kind == ShapeKind::frame) return stored_start(scene);
+  Start start{.phi = initial_phi(scene.shape, scene.grid(), scene.perturbation)};
+  if (scene.has_phases()) start.psi = initial_psi(scene);
+  start.exact = {exact_area(scene.shape), exact_volume(scene.shape)};
+  start.exact->area_ld = exact_area_ld(scene).value_or(0);
+  return start;
 }
 
 } // namespace lamella

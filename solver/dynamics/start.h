@@ -7,17 +7,17 @@
 
 namespace lamella {
 
-/// The level set that a scene starts from.
+/// The fields that a scene starts from, at the nodes.
 struct Start {
   struct Exact {
     double area, volume;
+    double area_ld = 0; ///< of the domains; without them 0
   };
-  std::vector<double> phi; ///< nodal values
-  std::vector<double>
-      psi{};               ///< the same, with phases: about the signed distance from their boundary
-  std::vector<double> c{}; ///< the same, with a stretch modulus: local stretch
-  std::optional<Exact> exact; ///< of the shape itself, where it is known
-  std::array<int, 3> cells{}; ///< by which the box of a stored frame had moved
+  std::vector<double> phi{};    ///< the membrane, negative inside
+  std::vector<double> psi{};    ///< with phases: about the signed distance from their boundary
+  std::vector<double> c{};      ///< local stretch, of a stored frame that has it; empty: 1
+  std::optional<Exact> exact{}; ///< of the shape itself, where it is known
+  std::array<int, 3> cells{};   ///< by which the box of a stored frame had moved
 };
 
 /// Throws RunError for a frame that does not fit the scene, StoreError for one that cannot be read.

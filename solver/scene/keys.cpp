@@ -36,6 +36,7 @@ const Range any_time{.low = 0, .high = 1e30};
 // clang-format off
 std::vector<Key> make_keys() {
   const std::vector<std::string_view> analytic{"sphere", "oblate", "prolate", "ellipsoid", "torus"};
+  const std::vector<std::string_view> one_phase{"none"}, two_phases{"cap", "caps", "frame"};
   return {
       {"", "name", member<&Scene::name>(), "", any, {},
        "what the run is called", "the file's name without `.toml`"},
@@ -85,10 +86,59 @@ std::vector<Key> make_keys() {
        "number of arms about the shape's axis that it seeds; 0: none, random in all directions"},
 
       {"membrane", "bending_modulus", member<&Scene::membrane, &Membrane::bending_modulus>(),
-       "energy", {.low = 1e-6}, {}, "bending modulus of the Helfrich energy"},
+       "energy", {.low = 1e-6}, one_phase, "bending modulus of the Helfrich energy"},
       {"membrane", "spontaneous_curvature",
-       member<&Scene::membrane, &Membrane::spontaneous_curvature>(), "1/length", any, {},
+       member<&Scene::membrane, &Membrane::spontaneous_curvature>(), "1/length", any, one_phase,
        "preferred sum of the principal curvatures, which is -2 on the unit sphere"},
+
+      {"domains", "kind", choice<&Scene::domains, &Domains::kind>({"none", "cap", "caps", "frame"}),
+       "", any, {}, "where the membrane is Ld at the start, the rest of it being Lo; none: one phase"},
+      {"domains", "area_fraction", member<&Scene::domains, &Domains::area_fraction>(), "",
+       {.low = 0, .high = 1, .above_low = true, .below_high = true}, {"cap"},
+       "area of the cap over that of the whole membrane"},
+      {"domains", "direction", member<&Scene::domains, &Domains::direction>(), "", any, {"cap"},
+       "from the shape's centre to the middle of the cap; any length but zero"},
+      {"domains", "directions", member<&Scene::domains, &Domains::directions>(), "", any, {"caps"},
+       "from the shape's centre to the middle of each cap", "none"},
+      {"domains", "half_angle", member<&Scene::domains, &Domains::half_angle>(), "degrees",
+       {.low = 0, .high = 180, .above_low = true, .below_high = true}, {"caps"},
+       "from the middle of a cap to its rim, seen from the shape's centre"},
+      {"domains", "bulge", member<&Scene::domains, &Domains::bulge>(), "degrees",
+       {.low = -90, .high = 90}, {"caps"},
+       "on a sphere, from the plane of a cap's rim to its membrane: above half_angle it bulges outward, below 0 inward; 0: flush with the sphere"},
+      {"domains", "file", member<&Scene::domains, &Domains::file>(), "", any, {"frame"},
+       "a stored frame with two phases, or the folder of a run for its last one",
+       "`file` in [shape]"},
+      {"domains", "curvature_start_time", member<&Scene::curvature_start_time>(), "time", any_time,
+       two_phases, "until then the spontaneous curvatures of both phases are 0"},
+
+      {"ld", "bending_modulus", member<&Scene::ld, &Phase::bending_modulus>(), "energy",
+       {.low = 1e-6}, two_phases, "bending modulus κ of the Ld phase"},
+      {"ld", "spontaneous_curvature", member<&Scene::ld, &Phase::spontaneous_curvature>(),
+       "1/length", any, two_phases, "its spontaneous curvature C: preferred sum of the principal curvatures"},
+      {"ld", "gaussian_modulus", member<&Scene::ld, &Phase::gaussian_modulus>(), "energy", any,
+       two_phases, "its Gaussian modulus κ_G; only the difference between the phases has an effect"},
+
+      {"lo", "bending_modulus", member<&Scene::lo, &Phase::bending_modulus>(), "energy",
+       {.low = 1e-6}, two_phases, "bending modulus κ of the Lo phase"},
+      {"lo", "spontaneous_curvature", member<&Scene::lo, &Phase::spontaneous_curvature>(),
+       "1/length", any, two_phases,
+       "its spontaneous curvature C: preferred sum of the principal curvatures"},
+      {"lo", "gaussian_modulus", member<&Scene::lo, &Phase::gaussian_modulus>(), "energy", any,
+       two_phases, "its Gaussian modulus κ_G; only the difference between the phases has an effect"},
+
+      {"line", "tension", member<&Scene::line, &Line::tension>(), "energy/length", not_negative,
+       two_phases, "line tension κ_l: energy of the phase boundary per length"},
+      {"line", "geodesic_modulus", member<&Scene::line, &Line::geodesic_modulus>(), "energy", any,
+       two_phases, "κ_g: energy per length and geodesic curvature"},
+      {"line", "torsion_modulus", member<&Scene::line, &Line::torsion_modulus>(), "energy", any,
+       two_phases, "κ_τ: energy per length and geodesic torsion"},
+      {"line", "normal_modulus", member<&Scene::line, &Line::normal_modulus>(), "energy", any,
+       two_phases, "κ_n: energy per length and normal curvature"},
+
+      {"stretch", "modulus", member<&Scene::stretch, &Stretch::modulus>(), "energy/length²",
+       not_negative, {},
+       "modulus μ that resists local stretch; 0: the membrane flows freely within each phase"},
 
       {"volume", "constraint", choice<&Scene::volume, &VolumeConstraint::constraint>(
            {"fixed", "ramped", "free"}), "", any, {},
@@ -193,7 +243,7 @@ std::string Key::label() const {
 
 bool Key::counts_in(Scene scene) const {
   if (cases.empty()) return true;
-  const Choice& choice = std::get<Choice>(choice_key(section)->access);
+  const Choice& choice = std::get<Choice>(choice_key(section).access);
   return std::ranges::find(cases, choice.names.at(choice.get(scene))) != cases.end();
 }
 
@@ -222,11 +272,11 @@ const Key* find_key(std::string_view section, std::string_view name) {
   return key == scene_keys().end() ? nullptr : &*key;
 }
 
-const Key* choice_key(std::string_view section) {
+const Key& choice_key(std::string_view section) {
   const auto key = std::ranges::find_if(scene_keys(), [&](const Key& k) {
     return k.section == section && std::holds_alternative<Choice>(k.access);
   });
-  return key == scene_keys().end() ? nullptr : &*key;
+  return key == scene_keys().end() ? *find_key("domains", "kind") : *key;
 }
 
 std::string quoted(std::string_view text) {
@@ -254,6 +304,7 @@ std::string value_text(const Key& key, Scene scene) {
           [&](Member<std::vector<double>> list) {
             return fmt::format("[{}]", fmt::join(list(scene), ", "));
           },
+          [&](Member<std::vector<Vec3>> list) { return fmt::format("{}", list(scene)); },
           [&](const Choice& choice) { return quoted(choice.names.at(choice.get(scene))); },
           [&](auto scalar) { return fmt::to_string(scalar(scene)); },
       },
@@ -273,6 +324,10 @@ std::string allowed_text(const Key& key) {
           },
           [&](Member<std::vector<double>>) {
             return fmt::format("a number {}, or a list of them", range_text(key.range));
+          },
+          [&](Member<std::vector<Vec3>>) {
+            return fmt::format("a list of three numbers each, [[x, y, z], ...], {}",
+                               range_text(key.range));
           },
           [&](const Choice& choice) {
             return fmt::format("\"{}\"", fmt::join(choice.names, "\", \""));

@@ -21,9 +21,9 @@ struct Choice {
   void (*set)(Scene&, int);
 };
 
-using Access =
-    std::variant<Member<double>, Member<int>, Member<bool>, Member<std::string>, Member<Vec3>,
-                 Member<std::array<int, 3>>, Member<std::vector<double>>, Choice>;
+using Access = std::variant<Member<double>, Member<int>, Member<bool>, Member<std::string>,
+                            Member<Vec3>, Member<std::array<int, 3>>, Member<std::vector<double>>,
+                            Member<std::vector<Vec3>>, Choice>;
 
 /// Allowed numbers, for vectors and lists each of them. What is not finite is never allowed.
 struct Range {
@@ -42,7 +42,7 @@ struct Key {
   Access access;
   std::string_view unit;
   Range range;
-  /// The values of its section's choice for which it counts; empty: it always does.
+  /// The values of choice_key(section) for which it counts; empty: it always does.
   std::vector<std::string_view> cases;
   std::string_view help;
   std::string_view fallback = {}; ///< the default in words, where the plain value says too little
@@ -62,9 +62,9 @@ std::vector<std::string_view> keys_of_section(std::string_view section);
 /// Null for an unknown key.
 const Key* find_key(std::string_view section, std::string_view name);
 
-/// The key, such as kind in [shape], whose value decides which others of its section count; null
-/// where all do.
-const Key* choice_key(std::string_view section);
+/// The key whose value decides which keys of a section count, if not all do: one of its own, such
+/// as kind in [shape], or else kind in [domains].
+const Key& choice_key(std::string_view section);
 
 /// A value of a scene in TOML.
 std::string value_text(const Key& key, Scene scene);

@@ -56,14 +56,14 @@ enum class DomainsKind { none, cap, caps, frame };
 /// rotation). Which members count depends on the kind.
 struct Domains {
   DomainsKind kind = DomainsKind::none;
-  double area_fraction = 0.5;   ///< cap: of the whole membrane
-  Vec3 direction{0, 0, 1};      ///< cap: any length but zero
-  std::vector<Vec3> directions; ///< caps: one each
-  double half_angle = 20;       ///< caps: of each, seen from the centre; degrees
+  double area_fraction = 0.5;     ///< cap: of the whole membrane
+  Vec3 direction{0, 0, 1};        ///< cap: any length but zero
+  std::vector<Vec3> directions{}; ///< caps: one each
+  double half_angle = 20;         ///< caps: of each, seen from the centre; degrees
   /// caps on a sphere: degrees between the membrane at the rim and the plane of the rim; half_angle
   /// for one flush with the sphere, more bulges outwards, less than 0 dimples inwards. 0: flush.
   double bulge = 0;
-  std::string file; ///< frame: a stored state with phases, or a run's folder for its last one
+  std::string file{}; ///< frame: a stored state with phases, or a run's folder for its last one
 
   bool operator==(const Domains&) const = default;
 };

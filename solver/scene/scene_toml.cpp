@@ -68,6 +68,14 @@ bool assign(std::vector<double>& member, const toml::node& value) {
   return true;
 }
 
+bool assign(std::vector<Vec3>& member, const toml::node& value) {
+  const toml::array* list = value.as_array();
+  member.resize(list ? list->size() : 0);
+  for (std::size_t i = 0; i < member.size(); ++i)
+    if (!assign(member[i], *list->get(i))) return false;
+  return list != nullptr;
+}
+
 bool assign_nodes(std::array<int, 3>& nodes, const toml::node& value) {
   int all = 0;
   if (!assign(all, value)) return assign(nodes, value);
@@ -114,21 +122,35 @@ private:
 Scene choices(const std::vector<Given>& given) {
   Scene scene;
   for (const Given& g : given)
-    if (g.key == choice_key(g.key->section)) Assignment(scene, g);
+    if (g.key == &choice_key(g.key->section)) Assignment(scene, g);
   return scene;
+}
+
+/// What to use instead of a key that does not count: others of its section or, where none does, the
+/// sections that count as a whole.
+std::vector<std::string> replacements(const Key& unwanted, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Key& key : scene_keys())
+    if (key.section == unwanted.section && key.counts_in(scene)) names.emplace_back(key.name);
+  if (!names.empty()) return names;
+  for (const std::string_view section : scene_sections()) {
+    const Key& first = *find_key(section, keys_of_section(section).front());
+    if (!first.cases.empty() && first.counts_in(scene))
+      names.push_back(fmt::format("[{}]", section));
+  }
+  return names;
 }
 
 void refuse_keys_that_do_not_count(const std::vector<Given>& given) {
   const Scene scene = choices(given);
   for (const Given& g : given) {
     if (g.key->counts_in(scene)) continue;
-    const Key& choice = *choice_key(g.key->section);
-    std::vector<std::string_view> allowed;
-    for (const Key& key : scene_keys())
-      if (key.section == g.key->section && key.counts_in(scene)) allowed.push_back(key.name);
-    refuse_scene(fmt::format("{}{}: belongs to {} = \"{}\", not {}; allowed: {}", g.place,
-                             g.key->label(), choice.name, fmt::join(g.key->cases, "\" or \""),
-                             value_text(choice, scene), fmt::join(allowed, ", ")));
+    const Key& choice = choice_key(g.key->section);
+    refuse_scene(
+        fmt::format("{}{}: belongs to {} = \"{}\", not {}; allowed: {}", g.place, g.key->label(),
+                    choice.section == g.key->section ? std::string(choice.name) : choice.label(),
+                    fmt::join(g.key->cases, "\" or \""), value_text(choice, scene),
+                    fmt::join(replacements(*g.key, scene), ", ")));
   }
 }
 
@@ -191,11 +213,15 @@ std::string describe_keys() {
   for (const std::string_view section : scene_sections()) {
     text += section.empty() ? "### Before the first section\n\n"
                             : fmt::format("\n### [{}]\n\n", section);
+    const Key& first = *find_key(section, keys_of_section(section).front());
+    if (!first.cases.empty())
+      text +=
+          fmt::format("With {} {}:\n\n", choice_key(section).label(), fmt::join(first.cases, ", "));
     text += "| key | allowed | unit | default | meaning |\n|---|---|---|---|---|\n";
     for (const Key& key : scene_keys()) {
       if (key.section != section) continue;
       const std::string of_case =
-          key.cases.empty() ? "" : fmt::format("{}: ", fmt::join(key.cases, ", "));
+          key.cases == first.cases ? "" : fmt::format("{}: ", fmt::join(key.cases, ", "));
       const std::string fallback = key.fallback.empty()
                                        ? fmt::format("`{}`", value_text(key, Scene{}))
                                        : std::string(key.fallback);

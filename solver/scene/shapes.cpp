@@ -195,6 +195,10 @@ Vec3 semi_axes(const Shape& shape) {
   }
 }
 
+Vec3 in_own_frame(const Shape& shape, const Vec3& vector) {
+  return to_body(rotation(shape), vector);
+}
+
 double exact_area(const Shape& shape) {
   if (shape.kind == ShapeKind::torus) return 4 * pi * pi * shape.ring_radius * shape.tube_radius;
   return ellipsoid_area(semi_axes(shape));

@@ -16,6 +16,9 @@ double prolate_axis_ratio(double reduced_volume);
 /// Semi-axes along the body's own x, y, z of any shape but the torus.
 Vec3 semi_axes(const Shape& shape);
 
+/// A vector along the body's own x, y, z.
+Vec3 in_own_frame(const Shape& shape, const Vec3& vector);
+
 /// Area and volume of the shape itself, to rounding; not those of its level set on a grid.
 double exact_area(const Shape& shape);
 double exact_volume(const Shape& shape);
