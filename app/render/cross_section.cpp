@@ -1,5 +1,7 @@
 #include "render/cross_section.h"
 
+#include "render/sampler.h"
+
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFlyingEdges2D.h>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace lamella::render {
 namespace {
@@ -52,11 +55,10 @@ vtkSmartPointer<vtkImageData> slice(const Frame& frame, double layer) {
   return image;
 }
 
-} // namespace
-
-std::vector<std::vector<Vec2>> cross_section(const Surface& surface) {
+/// The lines phi = 0 in a layer, each closed.
+std::vector<std::vector<Vec2>> closed_lines(const Frame& frame, double layer) {
   vtkNew<vtkFlyingEdges2D> edges;
-  edges->SetInputData(slice(surface.fine, cutting_layer(surface.fine)));
+  edges->SetInputData(slice(frame, layer));
   edges->SetValue(0, 0.0);
   edges->ComputeScalarsOff();
   vtkNew<vtkStripper> chain;
@@ -83,10 +85,54 @@ std::vector<std::vector<Vec2>> cross_section(const Surface& surface) {
   return lines;
 }
 
-Extent extent_of(const std::vector<std::vector<Vec2>>& lines) {
+/// A closed line cut where psi changes its sign from one point to the next.
+std::vector<Outline> cut(const std::vector<Vec2>& line, const std::vector<double>& psi) {
+  const auto part = [&](std::size_t n) { return psi[n] < 0 ? Part::Ld : Part::Lo; };
+  const auto next = [&](std::size_t n) { return (n + 1) % line.size(); };
+  const auto boundary = [&](std::size_t n) { // between a point and the next
+    const double t = psi[n] / (psi[n] - psi[next(n)]);
+    return Vec2{std::lerp(line[n][0], line[next(n)][0], t),
+                std::lerp(line[n][1], line[next(n)][1], t)};
+  };
+  std::size_t first = 0; // the last point before a boundary
+  while (first < line.size() && part(first) == part(next(first))) ++first;
+  if (first == line.size()) return {{part(0), line, true}};
+
+  std::vector<Outline> pieces;
+  std::size_t n = first;
+  do {
+    Outline piece{part(next(n)), {boundary(n)}, false};
+    do piece.points.push_back(line[n = next(n)]);
+    while (part(n) == part(next(n)));
+    piece.points.push_back(boundary(n));
+    pieces.push_back(std::move(piece));
+  } while (n != first);
+  return pieces;
+}
+
+} // namespace
+
+std::vector<Outline> cross_section(const Surface& surface) {
+  const Frame& fine = surface.fine;
+  const double layer = cutting_layer(fine), y = fine.grid.origin(1) + layer * fine.grid.spacing;
+  const Sampler psi(fine.grid, fine.psi);
+  std::vector<Outline> outlines;
+  for (const std::vector<Vec2>& line : closed_lines(fine, layer)) {
+    if (!surface.has_phases()) {
+      outlines.push_back({Part::whole, line, true});
+      continue;
+    }
+    std::vector<double> values;
+    for (const auto& [x, z] : line) values.push_back(psi.value({x, y, z}));
+    std::ranges::move(cut(line, values), std::back_inserter(outlines));
+  }
+  return outlines;
+}
+
+Extent extent_of(const std::vector<Outline>& lines) {
   Extent extent;
-  for (const auto& line : lines)
-    for (const Vec2& p : line) extent.include(p);
+  for (const Outline& line : lines)
+    for (const Vec2& p : line.points) extent.include(p);
   return extent;
 }
 

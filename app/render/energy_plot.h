@@ -6,7 +6,8 @@
 
 namespace lamella::render {
 
-/// Energy over time, E / kappa against t kappa / (zeta L^4). The time axis is logarithmic when the
+/// Energy over time, E / kappa against t kappa / (zeta L^4). With two phases or local stretch its
+/// terms too, those that are not 0 throughout. The time axis is logarithmic when the
 /// run spans decades of time and most of the energy goes in the first of them; the start, t = 0,
 /// then stands left of the axis proper. Rows that are not finite are left out. `width` and the
 /// height, 3/4 of it, in pixels. Throws RenderError when there is nothing to plot.

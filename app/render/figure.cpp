@@ -14,7 +14,7 @@
 namespace lamella::render {
 namespace {
 
-constexpr double margin = 50, gap = 70, header = 110, footer = 120;
+constexpr double margin = 50, gap = 70, header = 110, footer = 120, legend_width = 260;
 
 std::string time_label(double time) { return "*t* = " + number(time); }
 
@@ -69,7 +69,7 @@ struct Layout {
 };
 
 void add_state(Sheet& sheet, const Layout& layout, int state, double time,
-               const std::vector<std::vector<Vec2>>& section) {
+               const std::vector<Outline>& section) {
   const double base_line = layout.height - margin - 0.75 * style::type_size;
   TextStyle letter{style::type_size, style::ink};
   letter.bold = true;
@@ -77,10 +77,22 @@ void add_state(Sheet& sheet, const Layout& layout, int state, double time,
   sheet.text({layout.left(state) + layout.column / 2, base_line}, time_label(time),
              {style::type_size, style::ink, 0.5});
   const Vec2 middle = layout.section_center(state), center = layout.section.center();
-  for (std::vector<Vec2> line : section) {
-    for (Vec2& p : line)
+  for (Outline line : section) {
+    for (Vec2& p : line.points)
       for (int a = 0; a < 2; ++a) p[a] = middle[a] + layout.scale * (p[a] - center[a]);
-    sheet.line(std::move(line), {style::curve_width, style::membrane_line}, true);
+    if (!line.closed) sheet.disc(line.points.front(), style::boundary_width, style::ink);
+    sheet.line(std::move(line.points), {style::curve_width, hue(line.part).line}, line.closed);
+  }
+}
+
+/// What the colours of two phases mean, from `left` on.
+void add_legend(Sheet& sheet, const Vec2& left) {
+  constexpr double radius = 17;
+  double x = left[0] + radius;
+  for (const auto& [part, name] : {std::pair(Part::Ld, "Ld"), std::pair(Part::Lo, "Lo")}) {
+    sheet.disc({x, left[1] + 0.36 * style::small_type}, radius, hue(part).surface);
+    sheet.text({x + radius + 14, left[1]}, name, {style::small_type, style::ink});
+    x += legend_width / 2;
   }
 }
 
@@ -108,7 +120,8 @@ Panel place(const Surface& surface, const Viewpoint& viewpoint, const Extent& ex
   const auto whole = [&](double x) { return int(std::lround(x * pixels)); };
   const double width = scale * extent.width() + 2 * rim, height = scale * extent.height() + 2 * rim;
   const int rows = whole(height);
-  return {membrane_view(surface, viewpoint, extent.center(), rows / (scale * pixels)),
+  return {membrane_view(surface, viewpoint, extent.center(), rows / (scale * pixels),
+                        style::boundary_width / scale),
           whole(middle[0] - width / 2), whole(page_height - middle[1] - height / 2), whole(width),
           rows};
 }
@@ -131,6 +144,8 @@ Picture draw_figure(Studio& studio, const Surface& start, const Surface& end, in
                            layout.height, pixels));
   }
   add_axes(sheet, {margin + 10, margin});
+  if (start.has_phases() || end.has_phases())
+    add_legend(sheet, {style::page_width / 2 - legend_width / 2, margin});
   add_scale_bar(sheet, {style::page_width - margin, margin}, layout.scale,
                 0.45 * layout.column / layout.scale);
   return studio.shoot(width, int(std::lround(layout.height * pixels)), panels, sheet, pixels);
@@ -149,6 +164,7 @@ Picture draw_membrane(Studio& studio, const Surface& surface, int width, int hei
              time_label(surface.fine.time), {style::type_size, style::ink});
   add_scale_bar(sheet, {style::page_width - margin, margin}, scale,
                 0.25 * style::page_width / scale);
+  if (surface.has_phases()) add_legend(sheet, {margin, margin});
   const Vec2 middle{style::page_width / 2, page_height / 2};
   const Panel panel = place(surface, viewpoint, extent, scale, middle, page_height, pixels);
   return studio.shoot(width, height, {panel}, sheet, pixels);

@@ -1,16 +1,20 @@
 #include "render/membrane_view.h"
 
+#include "render/phases.h"
 #include "render/style.h"
 
 #include <vtkActor.h>
 #include <vtkBoundingBox.h>
 #include <vtkCamera.h>
+#include <vtkClipPolyData.h>
 #include <vtkFloatArray.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkStripper.h>
+#include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -33,33 +37,50 @@ void add_light(vtkRenderer& renderer, const Viewpoint& viewpoint, const Vec3& fr
   renderer.AddLight(light);
 }
 
+/// Where a mesh with normals faces the eye: 1 where straight, less than 0 where not.
+vtkSmartPointer<vtkFloatArray> facing(vtkPolyData& mesh, const Vec3& toward_eye) {
+  auto* normals = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetNormals());
+  auto cosine = vtkSmartPointer<vtkFloatArray>::New();
+  cosine->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  const float* normal = normals->GetPointer(0);
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n, normal += 3)
+    cosine->SetValue(n, float(dot({normal[0], normal[1], normal[2]}, toward_eye)));
+  return cosine;
+}
+
+/// A colour in less light. Its strongest channel fades least: shadows of red stay warm.
+Color shaded(const Color& color, double light) {
+  const int strongest = std::max({color.r, color.g, color.b});
+  const auto channel = [&](int value) {
+    return static_cast<unsigned char>(value * std::pow(light, value == strongest ? 0.8 : 1.0));
+  };
+  return {channel(color.r), channel(color.g), channel(color.b)};
+}
+
 /// The membrane's colour at every point: darker where little ambient light comes in, and toward the
 /// rim, which sets the shape off against the white paper.
-vtkSmartPointer<vtkUnsignedCharArray> tone(vtkPolyData& mesh, const Vec3& toward_eye) {
-  auto* normals = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetNormals());
+vtkSmartPointer<vtkUnsignedCharArray> tone(vtkPolyData& mesh, const Color& color,
+                                           const Vec3& toward_eye) {
+  const auto cosine = facing(mesh, toward_eye);
   auto* occlusion = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetArray("occlusion"));
   auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
   colors->SetNumberOfComponents(3);
   colors->SetNumberOfTuples(mesh.GetNumberOfPoints());
   unsigned char* out = colors->GetPointer(0);
-  const float* normal = normals->GetPointer(0);
-  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n, normal += 3, out += 3) {
-    const double facing = std::clamp(dot({normal[0], normal[1], normal[2]}, toward_eye), 0.0, 1.0);
-    const double rim = std::pow(1 - facing, 3);
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n, out += 3) {
+    const double rim = std::pow(1 - std::clamp(double(cosine->GetValue(n)), 0.0, 1.0), 3);
     const double open = 1 - 0.5 * occlusion->GetValue(n);
     const double light = open * (1 - 0.18 * rim);
-    out[0] =
-        static_cast<unsigned char>(style::membrane.r * std::pow(light, 0.8)); // shadows stay warm
-    out[1] = static_cast<unsigned char>(style::membrane.g * light);
-    out[2] = static_cast<unsigned char>(style::membrane.b * light);
+    const Color seen = shaded(color, light);
+    out[0] = seen.r, out[1] = seen.g, out[2] = seen.b;
   }
   return colors;
 }
 
-vtkSmartPointer<vtkActor> membrane_actor(const Surface& surface, const Vec3& toward_eye) {
+vtkSmartPointer<vtkActor> membrane_actor(const Patch& patch, const Vec3& toward_eye) {
   vtkNew<vtkPolyData> mesh;
-  mesh->ShallowCopy(surface.mesh);
-  mesh->GetPointData()->SetScalars(tone(*mesh, toward_eye));
+  mesh->ShallowCopy(patch.mesh);
+  mesh->GetPointData()->SetScalars(tone(*mesh, hue(patch.part).surface, toward_eye));
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(mesh);
   mapper->SetColorModeToDirectScalars();
@@ -71,6 +92,43 @@ vtkSmartPointer<vtkActor> membrane_actor(const Surface& surface, const Vec3& tow
   matte->SetDiffuse(0.72);
   matte->SetSpecular(0.07);
   matte->SetSpecularPower(9);
+  return actor;
+}
+
+/// Radius of the thread along a boundary: constant, but less toward the horizon, over which the
+/// thread would stick out, and less than 0 beyond.
+vtkSmartPointer<vtkFloatArray> radius(vtkPolyData& boundary, const Vec3& toward_eye, double width) {
+  constexpr float oblique = 0.35F;
+  const auto out = facing(boundary, toward_eye);
+  for (vtkIdType n = 0; n < out->GetNumberOfTuples(); ++n)
+    out->SetValue(n, float(width / 2) * std::min(1.0F, out->GetValue(n) / oblique));
+  return out;
+}
+
+/// A thread in the membrane rather than a line on it: nothing lies in the very same place, and seen
+/// from the side it stays more than half as wide.
+vtkSmartPointer<vtkActor> boundary_actor(vtkPolyData& boundary, const Vec3& toward_eye,
+                                         double width) {
+  boundary.GetPointData()->SetScalars(radius(boundary, toward_eye, width));
+  vtkNew<vtkClipPolyData> front;
+  front->SetInputData(&boundary);
+  front->SetValue(width / 100); // thinner, it cannot be seen
+  vtkNew<vtkStripper> chain;
+  chain->SetInputConnection(front->GetOutputPort());
+  chain->JoinContiguousSegmentsOn();
+  chain->SetMaximumLength(1 << 24);
+  vtkNew<vtkTubeFilter> thread;
+  thread->SetInputConnection(chain->GetOutputPort());
+  thread->SetVaryRadiusToVaryRadiusByAbsoluteScalar();
+  thread->SetNumberOfSides(12);
+  thread->CappingOn();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(thread->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetColor(style::ink.r / 255.0, style::ink.g / 255.0, style::ink.b / 255.0);
   return actor;
 }
 
@@ -118,14 +176,18 @@ Extent view_extent(const Surface& surface, const Viewpoint& viewpoint) {
 }
 
 vtkSmartPointer<vtkRenderer> membrane_view(const Surface& surface, const Viewpoint& viewpoint,
-                                           const Vec2& center, double height) {
+                                           const Vec2& center, double height, double line_width) {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->SetBackground(1, 1, 1);
   renderer->AutomaticLightCreationOff();
   add_light(*renderer, viewpoint, {-0.45, 0.80, 0.65}, 0.68); // key, from the upper left
   add_light(*renderer, viewpoint, {0.75, 0.10, 0.65}, 0.30);  // fill, from the right
   add_light(*renderer, viewpoint, {0.05, -0.70, 0.40}, 0.22); // as paper would reflect, from below
-  renderer->AddActor(membrane_actor(surface, viewpoint.lift({0, 0, 1})));
+  const Vec3 toward_eye = viewpoint.lift({0, 0, 1});
+  for (const Patch& patch : patches(*surface.mesh))
+    renderer->AddActor(membrane_actor(patch, toward_eye));
+  if (const auto boundary = phase_boundary(*surface.mesh); boundary->GetNumberOfLines() > 0)
+    renderer->AddActor(boundary_actor(*boundary, toward_eye, line_width));
 
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->ParallelProjectionOn();

@@ -38,9 +38,10 @@ private:
 /// What a membrane covers in the plane of its view.
 Extent view_extent(const Surface& surface, const Viewpoint& viewpoint);
 
-/// The lit membrane. `center` is the point of the view plane in the middle of the panel, `height`
-/// the panel's height as a length of the box.
+/// The lit membrane, with a dark line where two phases meet. `center` is the point of the view
+/// plane in the middle of the panel; the panel's `height` and the line's width are lengths of the
+/// box.
 vtkSmartPointer<vtkRenderer> membrane_view(const Surface& surface, const Viewpoint& viewpoint,
-                                           const Vec2& center, double height);
+                                           const Vec2& center, double height, double line_width);
 
 } // namespace lamella::render

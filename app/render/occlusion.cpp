@@ -53,7 +53,8 @@ Frame blurred_inside(const Frame& frame, double radius) {
 } // namespace
 
 Occlusion::Occlusion(const Frame& frame, double radius)
-    : radius_(radius), inside_(blurred_inside(frame, radius)), sampler_(inside_) {}
+    : radius_(radius), inside_(blurred_inside(frame, radius)), sampler_(inside_.grid, inside_.phi) {
+}
 
 double Occlusion::at(const Vec3& p, const Vec3& normal) const {
   constexpr double flat = 0.1587; // a Gaussian's weight beyond one sigma

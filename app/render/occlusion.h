@@ -1,5 +1,6 @@
 #pragma once
 #include "render/sampler.h"
+#include "store/frame.h"
 
 namespace lamella::render {
 

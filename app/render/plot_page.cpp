@@ -44,7 +44,8 @@ void draw_left_tick(Sheet& sheet, double left, double y, const std::string& labe
              {style::small_type, style::ink, 1});
 }
 
-void draw_titles(Sheet& sheet, double left, const std::string& below, const std::string& at_left) {
+void draw_titles(Sheet& sheet, double left, double right, const std::string& below,
+                 const std::string& at_left) {
   TextStyle style{style::type_size, style::ink, 0.5};
   sheet.text({(left + right) / 2, 50}, below, style);
   style.upright = false;

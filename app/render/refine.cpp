@@ -43,6 +43,19 @@ std::vector<double> refine_axis(const std::vector<double>& in, int nodes, std::s
   return out;
 }
 
+/// `values` of a grid at the nodes that are left when so many layers are dropped at both ends.
+std::vector<double> cropped(const std::vector<double>& values, const Grid& grid,
+                            const std::array<int, 3>& cut) {
+  std::vector<double> out;
+  if (values.empty()) return out;
+  for (int k = cut[2]; k < grid.nz() - cut[2]; ++k)
+    for (int j = cut[1]; j < grid.ny() - cut[1]; ++j) {
+      const auto row = values.begin() + grid.index(0, j, k);
+      out.insert(out.end(), row + cut[0], row + grid.nx() - cut[0]);
+    }
+  return out;
+}
+
 } // namespace
 
 Frame crop(const Frame& frame, double margin) {
@@ -57,25 +70,23 @@ Frame crop(const Frame& frame, double margin) {
         for (int a = 0; a < 3; ++a) cut[a] = std::min({cut[a], at[a], grid.nodes[a] - 1 - at[a]});
       }
   const int layers = int(std::ceil(margin / grid.spacing));
-  Frame out{grid, frame.time, {}};
+  Grid kept = grid;
   for (int a = 0; a < 3; ++a) {
     cut[a] = std::max(0, cut[a] - layers);
-    out.grid.nodes[a] -= 2 * cut[a];
+    kept.nodes[a] -= 2 * cut[a];
   }
-  out.phi.reserve(out.grid.size());
-  for (int k = 0; k < out.grid.nz(); ++k)
-    for (int j = 0; j < out.grid.ny(); ++j) {
-      const auto row = frame.phi.begin() + grid.index(cut[0], cut[1] + j, cut[2] + k);
-      out.phi.insert(out.phi.end(), row, row + out.grid.nx());
-    }
-  return out;
+  return {.grid = kept,
+          .time = frame.time,
+          .phi = cropped(frame.phi, grid, cut),
+          .psi = cropped(frame.psi, grid, cut)};
 }
 
 Frame refine(const Frame& frame, int factor) {
-  Frame fine = frame;
+  Frame fine{.grid = frame.grid, .time = frame.time, .phi = frame.phi, .psi = frame.psi};
   std::size_t inner = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    fine.phi = refine_axis(fine.phi, frame.grid.nodes[axis], inner, factor);
+    for (std::vector<double>* values : {&fine.phi, &fine.psi})
+      if (!values->empty()) *values = refine_axis(*values, frame.grid.nodes[axis], inner, factor);
     fine.grid.nodes[axis] *= factor;
     inner *= fine.grid.nodes[axis];
   }

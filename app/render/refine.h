@@ -3,11 +3,11 @@
 
 namespace lamella::render {
 
-/// The frame cut to the smallest box, centred like the grid, that holds the inside (phi < 0) and a
-/// margin (a length) around it; the whole frame if that does not fit.
+/// phi and psi cut to the smallest box, centred like the grid, that holds the inside (phi < 0) and
+/// a margin (a length) around it; to the whole box if that does not fit.
 Frame crop(const Frame& frame, double margin);
 
-/// The frame on a lattice finer by a whole factor over the same box. Fifth-order polynomials
+/// phi and psi on a lattice finer by a whole factor over the same box. Fifth-order polynomials
 /// through the six nearest nodes along each axis, one axis after the other.
 Frame refine(const Frame& frame, int factor);
 

@@ -22,7 +22,7 @@ struct RenderOptions {
   /// Meant for print at 400 pixels per inch: 2100 pixels are 133 mm (labels of 9 pt), legible from
   /// 90 to 180 mm.
   int width = 2100;
-  double bending_modulus = 1; ///< kappa: the unit of energy in plots
+  double bending_modulus = 1; ///< kappa, with phases that of Ld: the unit of energy in plots
 };
 
 /// Draw a run into an existing folder and return the files written:

@@ -1,15 +1,16 @@
 #pragma once
-#include "store/frame.h"
+#include "grid/grid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace lamella::render {
 
-/// A frame's field and its gradient between the nodes, trilinear. The frame must outlive it.
+/// A field and its gradient between the nodes, trilinear. Grid and values must outlive it.
 class Sampler {
 public:
-  explicit Sampler(const Frame& frame) : frame_(frame) {}
+  Sampler(const Grid& grid, const std::vector<double>& values) : grid_(grid), values_(values) {}
 
   double value(const Vec3& p) const {
     return interpolate(p, [&](int i, int j, int k) { return node(i, j, k); });
@@ -25,25 +26,24 @@ public:
 
 private:
   double node(int i, int j, int k) const {
-    const auto& n = frame_.grid.nodes;
-    return frame_.phi[frame_.grid.index(std::clamp(i, 0, n[0] - 1), std::clamp(j, 0, n[1] - 1),
-                                        std::clamp(k, 0, n[2] - 1))];
+    const auto& n = grid_.nodes;
+    return values_[grid_.index(std::clamp(i, 0, n[0] - 1), std::clamp(j, 0, n[1] - 1),
+                               std::clamp(k, 0, n[2] - 1))];
   }
 
   double difference(int axis, int i, int j, int k) const {
     const std::array<int, 3> d{axis == 0, axis == 1, axis == 2};
     const auto at = [&](int s) { return node(i + s * d[0], j + s * d[1], k + s * d[2]); };
-    return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * frame_.grid.spacing);
+    return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * grid_.spacing);
   }
 
   template <class Node>
   double interpolate(const Vec3& p, Node&& node) const {
-    const Grid& grid = frame_.grid;
     std::array<int, 3> base;
     Vec3 t;
     for (int a = 0; a < 3; ++a) {
-      const double x = (p[a] - grid.origin(a)) / grid.spacing;
-      base[a] = std::clamp(int(std::floor(x)), 0, std::max(0, grid.nodes[a] - 2));
+      const double x = (p[a] - grid_.origin(a)) / grid_.spacing;
+      base[a] = std::clamp(int(std::floor(x)), 0, std::max(0, grid_.nodes[a] - 2));
       t[a] = std::clamp(x - base[a], 0.0, 1.0);
     }
     double sum = 0;
@@ -55,7 +55,8 @@ private:
     return sum;
   }
 
-  const Frame& frame_;
+  const Grid& grid_;
+  const std::vector<double>& values_;
 };
 
 } // namespace lamella::render

@@ -8,13 +8,24 @@ constexpr double page_width = 2100;
 
 constexpr Color ink{38, 38, 42};
 constexpr Color faint_ink{150, 150, 156};
-constexpr Color membrane{236, 122,
-                         100}; ///< coral, as for liquid-disordered lipid in stained vesicles
-constexpr Color membrane_line{190, 62, 44}; ///< the same hue, dark enough for lines on white
+
+/// A colour of lit membranes, and the same hue dark enough for lines on white.
+struct Hue {
+  Color surface, line;
+};
+/// Coral, as for liquid-disordered lipid in stained vesicles.
+constexpr Hue membrane{{236, 122, 100}, {190, 62, 44}};
+/// Of two phases. They differ in lightness too, and in no eye look alike.
+constexpr Hue Ld{{226, 92, 80}, {190, 62, 44}}, Lo{{96, 152, 214}, {38, 98, 168}};
+
+/// Of energies other than those of a phase.
+constexpr Color line_energy{176, 122, 0}, gaussian_energy{0, 128, 108},
+    stretch_energy{130, 90, 160};
 
 constexpr double type_size = 50; ///< 9 pt at 400 pixels per inch
 constexpr double small_type = 44;
 constexpr double hairline = 3.5;
 constexpr double curve_width = 8;
+constexpr double boundary_width = 7; ///< of the line between two phases
 
 } // namespace lamella::render::style

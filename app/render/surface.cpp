@@ -65,7 +65,7 @@ double half_size(const Frame& frame) {
 }
 
 void add_point_data(vtkPolyData& mesh, const Frame& fine, const Occlusion& occlusion) {
-  const Sampler phi(fine);
+  const Sampler phi(fine.grid, fine.phi);
   const vtkIdType points = mesh.GetNumberOfPoints();
   vtkNew<vtkFloatArray> normals;
   normals->SetName("Normals");
@@ -87,6 +87,19 @@ void add_point_data(vtkPolyData& mesh, const Frame& fine, const Occlusion& occlu
   mesh.GetPointData()->AddArray(shade);
 }
 
+void add_psi(vtkPolyData& mesh, const Frame& fine) {
+  const Sampler psi(fine.grid, fine.psi);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("psi");
+  values->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n) {
+    Vec3 p;
+    mesh.GetPoint(n, p.data());
+    values->SetValue(n, psi.value(p));
+  }
+  mesh.GetPointData()->SetScalars(values);
+}
+
 } // namespace
 
 Surface extract_surface(const Frame& frame) {
@@ -100,6 +113,7 @@ Surface extract_surface(const Frame& frame) {
     throw RenderError("nothing to draw: the level set at t = " + plain(number(frame.time)) +
                       " has no membrane");
   add_point_data(*surface.mesh, surface.fine, Occlusion(around, shadow));
+  if (surface.has_phases()) add_psi(*surface.mesh, surface.fine);
   return surface;
 }
 

@@ -84,7 +84,7 @@ private:
     const Ticks errors = log_ticks(error_.low, error_.high);
     for (std::size_t n = 0; n < errors.positions.size(); ++n)
       draw_left_tick(sheet, time_.begin, error_.position(errors.positions[n]), errors.labels[n]);
-    draw_titles(sheet, time_.begin, "wall time / s", "relative error");
+    draw_titles(sheet, time_.begin, right, "wall time / s", "relative error");
   }
 
   /// The border between what some run achieves and what none does: a staircase.

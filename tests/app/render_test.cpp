@@ -6,6 +6,7 @@
 #include "render/labels.h"
 #include "render/membrane_view.h"
 #include "render/occlusion.h"
+#include "render/phases.h"
 #include "render/refine.h"
 #include "render/studio.h"
 #include "render/style.h"
@@ -45,11 +46,35 @@ Frame sphere(double radius, Vec3 center = {}, double time = 0) {
       time);
 }
 
+/// A sphere around the origin with a cap of Ld of so many radians around the z axis, in distances
+/// that level off as the engine's do.
+Frame capped_sphere(double radius, double cap_angle) {
+  Frame frame = sphere(radius);
+  for (std::size_t n = 0; n < frame.grid.size(); ++n) {
+    const auto [x, y, z] = frame.grid.position(n);
+    const double distance = radius * (std::atan2(std::hypot(x, y), z) - cap_angle);
+    frame.psi.push_back(0.3 * std::tanh(distance / 0.3));
+  }
+  return frame;
+}
+
 std::vector<Measures> falling_energy(int rows, double end) {
   std::vector<Measures> history(rows);
   for (int n = 0; n < rows; ++n) {
     history[n].time = end * n / (rows - 1);
     history[n].energy = 40 + 30 * std::exp(-5.0 * n / (rows - 1));
+  }
+  return history;
+}
+
+/// A history with these energies of the phases, which fall too.
+std::vector<Measures> with_phases(std::vector<Measures> history, const PhaseMeasures& start) {
+  for (Measures& row : history) {
+    const double rest = row.energy / history.front().energy;
+    row.phases = start;
+    for (double* x : {&row.phases->bending_energy_Ld, &row.phases->bending_energy_Lo,
+                      &row.phases->line_energy, &row.phases->gaussian_energy})
+      *x *= rest;
   }
   return history;
 }
@@ -84,11 +109,11 @@ protected:
 };
 
 /// A picture of 400 x 400 pixels, 200 to the length of the box.
-Picture view_of(const Surface& surface, const std::string& backend) {
+Picture view_of(const Surface& surface, const std::string& backend, double elevation = 30) {
   Studio studio(backend);
-  const Viewpoint viewpoint(30);
-  return studio.shoot(400, 400, {{membrane_view(surface, viewpoint, {0, 0}, 2), 0, 0, 400, 400}},
-                      Sheet(), 1);
+  const Viewpoint viewpoint(elevation);
+  return studio.shoot(
+      400, 400, {{membrane_view(surface, viewpoint, {0, 0}, 2, 0.02), 0, 0, 400, 400}}, Sheet(), 1);
 }
 
 class Backend : public Render, public testing::WithParamInterface<const char*> {};
@@ -107,6 +132,69 @@ TEST_P(Backend, shows_a_sphere_as_a_lit_disc_of_the_right_size) {
 
 INSTANTIATE_TEST_SUITE_P(Offscreen, Backend, testing::Values("auto", "osmesa", "egl"));
 
+constexpr double from_above = 90; ///< along z
+
+bool is_red(const Color& c) { return c.r > c.b + 25; }
+bool is_blue(const Color& c) { return c.b > c.r + 25; }
+
+TEST_F(Render, colours_phases_to_either_side_of_a_dark_line) {
+  const double angle = 0.9, rim = 100 * std::sin(angle); // pixels
+  const Picture picture = view_of(extract_surface(capped_sphere(0.5, angle)), "auto", from_above);
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 400; ++x) {
+      const double distance = std::hypot(x - 199.5, y - 199.5), line = 2 + 1; // half, and a pixel
+      const Color c = picture.at(x, y);
+      if (distance < rim - line) {
+        ASSERT_TRUE(is_red(c)) << x << ' ' << y;
+      } else if (std::abs(distance - rim) < 0.5) {
+        ASSERT_EQ(c, style::ink) << x << ' ' << y;
+      } else if (distance > rim + line && distance < 100 - 1) {
+        ASSERT_TRUE(is_blue(c)) << x << ' ' << y;
+      } else if (distance > 100 + 1) {
+        ASSERT_EQ(c, (Color{255, 255, 255})) << x << ' ' << y;
+      }
+    }
+}
+
+TEST_F(Render, hides_the_phase_behind) {
+  const double behind = std::numbers::pi - 0.9;
+  const Picture picture = view_of(extract_surface(capped_sphere(0.5, behind)), "auto", from_above);
+  EXPECT_GT(std::ranges::count_if(picture.pixels, is_red), 31000);
+  EXPECT_EQ(std::ranges::count_if(picture.pixels, is_blue), 0);
+  EXPECT_EQ(count_pixels(picture, style::ink), 0);
+}
+
+TEST_F(Render, cuts_phases_apart_exactly_also_through_nodes) {
+  Frame frame = sphere(0.5);
+  const double plane = // through nodes of the lattice that is four times as fine
+      frame.grid.position(frame.grid.index(0, 0, 26))[2] + frame.grid.spacing / 8;
+  for (std::size_t n = 0; n < frame.grid.size(); ++n)
+    frame.psi.push_back(frame.grid.position(n)[2] - plane);
+  const std::vector<Patch> both = patches(*extract_surface(frame).mesh);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].part, Part::Ld);
+  std::array<double, 6> bounds{};
+  both[0].mesh->GetCellsBounds(bounds.data());
+  EXPECT_NEAR(bounds[5], plane, 1e-6);
+  EXPECT_EQ(both[1].part, Part::Lo);
+  both[1].mesh->GetCellsBounds(bounds.data());
+  EXPECT_NEAR(bounds[4], plane, 1e-6);
+  EXPECT_GT(count_pixels(view_of(extract_surface(frame), "auto"), style::ink), 500);
+}
+
+TEST_F(Render, draws_a_membrane_that_one_of_two_phases_has_left) {
+  Frame frame = sphere(0.5);
+  frame.psi.assign(frame.grid.size(), 0.3);
+  const Surface surface = extract_surface(frame);
+  const Picture picture = view_of(surface, "auto");
+  EXPECT_GT(std::ranges::count_if(picture.pixels, is_blue), 30000);
+  EXPECT_EQ(std::ranges::count_if(picture.pixels, is_red), 0);
+  EXPECT_EQ(count_pixels(picture, style::ink), 0);
+  const auto lines = cross_section(surface);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_TRUE(lines[0].closed && lines[0].part == Part::Lo);
+}
+
 TEST_F(Render, says_which_backends_there_are) {
   EXPECT_THAT(error_of([] { Studio studio("metal"); }),
               AllOf(HasSubstr("\"metal\""), HasSubstr("auto, osmesa, egl or x")));
@@ -119,7 +207,7 @@ TEST_F(Render, says_that_a_display_is_missing) {
 TEST_F(Render, cuts_a_sphere_in_a_circle) {
   const auto lines = cross_section(extract_surface(sphere(0.5, {0.1, -0.2, 0.05})));
   ASSERT_EQ(lines.size(), 1u);
-  for (const Vec2& p : lines[0]) EXPECT_NEAR(std::hypot(p[0] - 0.1, p[1] - 0.05), 0.5, 2e-4);
+  for (const Vec2& p : lines[0].points) EXPECT_NEAR(std::hypot(p[0] - 0.1, p[1] - 0.05), 0.5, 2e-4);
 }
 
 TEST_F(Render, cuts_a_torus_in_two_circles) {
@@ -128,8 +216,30 @@ TEST_F(Render, cuts_a_torus_in_two_circles) {
   };
   const auto lines = cross_section(extract_surface(frame_of(torus)));
   ASSERT_EQ(lines.size(), 2u);
-  for (const auto& line : lines)
-    for (const Vec2& p : line) EXPECT_NEAR(std::hypot(std::abs(p[0]) - 0.5, p[1]), 0.2, 1e-3);
+  for (const Outline& line : lines)
+    for (const Vec2& p : line.points)
+      EXPECT_NEAR(std::hypot(std::abs(p[0]) - 0.5, p[1]), 0.2, 1e-3);
+}
+
+TEST_F(Render, cuts_a_section_where_phases_meet) {
+  const double angle = 0.9;
+  const auto lines = cross_section(extract_surface(capped_sphere(0.5, angle)));
+  ASSERT_EQ(lines.size(), 2u);
+  for (const Outline& line : lines) {
+    EXPECT_FALSE(line.closed);
+    for (const Vec2& p : line.points) {
+      const double from_top = std::atan2(std::abs(p[0]), p[1]);
+      EXPECT_NEAR(std::hypot(p[0], p[1]), 0.5, 5e-4);
+      if (line.part == Part::Ld) {
+        EXPECT_LT(from_top, angle + 1e-3);
+      } else {
+        EXPECT_GT(from_top, angle - 1e-3);
+      }
+    }
+    for (const Vec2& end : {line.points.front(), line.points.back()})
+      EXPECT_NEAR(std::atan2(std::abs(end[0]), end[1]), angle, 1e-3);
+  }
+  EXPECT_NE(lines[0].part, lines[1].part);
 }
 
 TEST_F(Render, finds_a_section_where_the_middle_is_empty) {
@@ -149,22 +259,28 @@ TEST_F(Render, refines_polynomials_of_degree_five_exactly) {
   const auto polynomial = [](const Vec3& p) {
     return std::pow(p[0], 5) - 2 * std::pow(p[1], 4) * p[2] + p[0] * p[1] * p[2] + 0.5;
   };
-  const Frame fine = refine(frame_of(polynomial, 0, Grid::cube(12, 1)), 3);
+  Frame coarse = frame_of(polynomial, 0, Grid::cube(12, 1));
+  for (const double phi : coarse.phi) coarse.psi.push_back(1 - phi);
+  const Frame fine = refine(coarse, 3);
   const Grid& grid = fine.grid;
   EXPECT_EQ(grid, Grid::cube(36, 1));
   for (std::size_t n = 0; n < grid.size(); ++n) {
     const Vec3 p = grid.position(n);
     if (std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > 0.5) continue; // near the ends
     EXPECT_NEAR(fine.phi[n], polynomial(p), 1e-12);
+    EXPECT_NEAR(fine.psi[n], 1 - polynomial(p), 1e-12);
   }
 }
 
 TEST_F(Render, crops_to_the_membrane_and_keeps_its_place) {
-  const Frame whole = sphere(0.3, {0.2, 0, 0}), part = crop(whole, 0.1);
+  Frame whole = sphere(0.3, {0.2, 0, 0});
+  for (const double phi : whole.phi) whole.psi.push_back(1 - phi);
+  const Frame part = crop(whole, 0.1);
   EXPECT_THAT(part.grid.nodes, ElementsAre(30, 20, 20));
   for (std::size_t n = 0; n < part.grid.size(); ++n) {
     const Vec3 p = part.grid.position(n);
     EXPECT_NEAR(part.phi[n], std::hypot(p[0] - 0.2, p[1], p[2]) - 0.3, 1e-12);
+    EXPECT_NEAR(part.psi[n], 1 - part.phi[n], 1e-12);
   }
 }
 
@@ -186,9 +302,36 @@ TEST_F(Render, draws_the_sections_below_the_views) {
   int above = 0, below = 0; // pixels of the sections' line
   for (int y = 0; y < figure.height; ++y)
     for (int x = 0; x < figure.width; ++x)
-      if (figure.at(x, y) == style::membrane_line) ++(2 * y < figure.height ? above : below);
+      if (figure.at(x, y) == style::membrane.line) ++(2 * y < figure.height ? above : below);
   EXPECT_EQ(above, 0);
   EXPECT_GT(below, 3000);
+}
+
+TEST_F(Render, names_the_colours_of_phases_where_there_are_some) {
+  Studio studio("auto");
+  const Surface one = extract_surface(sphere(0.5)), two = extract_surface(capped_sphere(0.5, 0.9));
+  const auto legend = [&](const Surface& start, const Surface& end) { // Ld left of Lo, at the foot
+    const Picture figure = draw_figure(studio, start, end, 1050);
+    int Ld = 0, Lo = 0;
+    for (int y = figure.height - 60; y < figure.height; ++y)
+      for (int x = 0; x < figure.width; ++x) {
+        if (figure.at(x, y) == style::Ld.surface) ++Ld;
+        if (figure.at(x, y) == style::Lo.surface) ++Lo;
+      }
+    return std::pair(Ld > 150, Lo > 150);
+  };
+  EXPECT_EQ(legend(one, one), std::pair(false, false));
+  EXPECT_EQ(legend(one, two), std::pair(true, true));
+}
+
+TEST_F(Render, draws_sections_in_the_colours_of_phases) {
+  Studio studio("auto");
+  const double angle = 0.9, part = angle / std::numbers::pi; // of the outline in Ld
+  const Surface surface = extract_surface(capped_sphere(0.5, angle));
+  const Picture figure = draw_figure(studio, surface, surface, 1050);
+  const double Ld = count_pixels(figure, style::Ld.line), Lo = count_pixels(figure, style::Lo.line);
+  EXPECT_NEAR(Ld / (Ld + Lo), part, 0.02);
+  EXPECT_GT(Ld + Lo, 4000);
 }
 
 TEST_F(Render, plots_the_energy_from_end_to_end) {
@@ -198,7 +341,7 @@ TEST_F(Render, plots_the_energy_from_end_to_end) {
   std::vector<int> columns; // that the curve runs through
   for (int x = 0; x < plot.width; ++x)
     for (int y = 0; y < plot.height; ++y)
-      if (plot.at(x, y) == style::membrane_line) {
+      if (plot.at(x, y) == style::membrane.line) {
         columns.push_back(x);
         break;
       }
@@ -206,6 +349,27 @@ TEST_F(Render, plots_the_energy_from_end_to_end) {
   EXPECT_LT(columns.front(), 140);
   EXPECT_GT(columns.back(), 650);
   EXPECT_EQ(int(columns.size()), columns.back() - columns.front() + 1) << "no gaps";
+}
+
+TEST_F(Render, plots_the_terms_of_the_energy_that_are_there) {
+  Studio studio("auto");
+  const auto shows = [&](const std::vector<Measures>& history) {
+    const Picture plot = draw_energy(studio, history, 1, 700);
+    std::vector<bool> there;
+    for (const Color& color : {style::membrane.line, style::Lo.line, style::line_energy,
+                               style::gaussian_energy, style::stretch_energy})
+      there.push_back(count_pixels(plot, color) > 1000);
+    return there;
+  };
+  const std::vector<Measures> plain = falling_energy(200, 1.6e-3);
+  EXPECT_THAT(shows(plain), ElementsAre(true, false, false, false, false));
+  PhaseMeasures phases;
+  phases.bending_energy_Ld = 30, phases.bending_energy_Lo = 15, phases.line_energy = 25;
+  EXPECT_THAT(shows(with_phases(plain, phases)), ElementsAre(true, true, true, false, false));
+  phases.gaussian_energy = -12;
+  std::vector<Measures> all = with_phases(plain, phases);
+  for (Measures& row : all) row.stretch = {5, 1, 1};
+  EXPECT_THAT(shows(all), ElementsAre(true, true, true, true, true));
 }
 
 TEST_F(Render, plots_one_row_and_steady_energies_but_not_nothing) {
