@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <vector>
 
 namespace lamella {
 
@@ -56,11 +57,16 @@ void Progress::update(const Measures& m, double next_dt) {
   last_ = Clock::now();
   const double left = steps_left(m.time, next_dt) * seconds_since(start_) / double(steps_);
   const std::size_t width = line_width();
+  std::vector<std::string> parts{fmt::format("t = {:.3e} of {:.3e}", m.time, end_time_),
+                                 fmt::format("   {} left", duration_text(left)),
+                                 fmt::format("   E = {:.4f}", m.energy)};
+  if (m.phases)
+    parts.push_back(fmt::format("   line {:.4f}   domains {} Ld, {} Lo", m.phases->line_length,
+                                m.phases->domains_Ld, m.phases->domains_Lo));
+  parts.push_back(fmt::format("   dt = {:.1e}", m.dt));
+  parts.push_back(fmt::format("   step {}", steps_));
   std::string line;
-  for (const std::string& part :
-       {fmt::format("t = {:.3e} of {:.3e}", m.time, end_time_),
-        fmt::format("   {} left", duration_text(left)), fmt::format("   E = {:.4f}", m.energy),
-        fmt::format("   dt = {:.1e}", m.dt), fmt::format("   step {}", steps_)}) {
+  for (const std::string& part : parts) {
     if (line.size() + part.size() > width) break;
     line += part;
   }

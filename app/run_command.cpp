@@ -75,10 +75,21 @@ std::string result(const Course& course, double seconds) {
                      std::max(course.area_drift(), course.volume_drift()));
 }
 
+/// What became of two phases.
+std::string phases_result(const PhaseMeasures& start, const PhaseMeasures& end) {
+  return fmt::format("bending Ld {:.6g} -> {:.6g}, Lo {:.6g} -> {:.6g}; line {:.6g} -> {:.6g}, "
+                     "length {:.6g} -> {:.6g}; domains Ld {} -> {}, Lo {} -> {}\n",
+                     start.bending_energy_Ld, end.bending_energy_Ld, start.bending_energy_Lo,
+                     end.bending_energy_Lo, start.line_energy, end.line_energy, start.line_length,
+                     end.line_length, start.domains_Ld, end.domains_Ld, start.domains_Lo,
+                     end.domains_Lo);
+}
+
 void report(const Simulation& sim, const Course& course, const Outcome& outcome, double seconds) {
   const std::string words = words_for(outcome, sim.time()), warning = caution(sim.events());
   if (outcome.code == success && !outcome.reason.empty()) say(fmt::format("The run {}\n", words));
   say(result(course, seconds));
+  if (course.end().phases) say(phases_result(*course.start().phases, *course.end().phases));
   if (outcome.code != success) remark(fmt::format("the run {}; stored up to there", words));
   if (!warning.empty()) remark("warning: " + warning);
 }

@@ -17,16 +17,82 @@ std::string_view word_for(Constraint constraint) {
   return words[int(constraint)];
 }
 
+/// Of the whole area or that of a phase, whichever is larger.
+double area_drift_of(const Measures& m) {
+  return std::max(std::abs(m.area_drift), m.phases ? std::abs(m.phases->area_Ld_drift) : 0);
+}
+
+std::string row(std::string_view name, std::string_view symbol, double from, double to,
+                std::string_view constraint = "") {
+  return fmt::format("{:<22} {:<14} {:>14.8g} {:>14.8g}{}{}\n", name, symbol, from, to,
+                     constraint.empty() ? "" : "   ", constraint);
+}
+
+std::string energy_rows(const Measures& start, const Measures& end) {
+  std::string text = row("energy", "E", start.energy, end.energy);
+  if (start.phases) {
+    const PhaseMeasures &from = *start.phases, &to = *end.phases;
+    text += row("  bending", "of Ld", from.bending_energy_Ld, to.bending_energy_Ld);
+    text += row("", "of Lo", from.bending_energy_Lo, to.bending_energy_Lo);
+    text += row("  Gaussian curvature", "", from.gaussian_energy, to.gaussian_energy);
+    text += row("  phase boundary", "", from.line_energy, to.line_energy);
+  }
+  if (start.stretch) text += row("  stretch", "", start.stretch->energy, end.stretch->energy);
+  return text + row("", "int K_M^2 dA", start.int_KM2, end.int_KM2);
+}
+
+std::string tension_rows(const Measures& start, const Measures& end) {
+  if (!start.phases) return row("tension", "sigma", start.sigma, end.sigma);
+  return row("tension", "sigma_Ld", start.phases->sigma_Ld, end.phases->sigma_Ld) +
+         row("", "sigma_Lo", start.phases->sigma_Lo, end.phases->sigma_Lo);
+}
+
+std::string area_rows(const Measures& start, const Measures& end) {
+  if (!start.phases) return row("area", "A", start.area, end.area, "fixed");
+  return row("area", "A_Ld", start.phases->area_Ld, end.phases->area_Ld, "fixed") +
+         row("", "A_Lo", start.phases->area_Lo, end.phases->area_Lo, "fixed");
+}
+
+std::string boundary_rows(const PhaseMeasures& start, const PhaseMeasures& end) {
+  return row("phase boundary", "length", start.line_length, end.line_length) +
+         row("", "least radius", start.line_radius, end.line_radius) +
+         row("", "largest speed", start.max_line_speed, end.max_line_speed) +
+         row("domains", "of Ld", start.domains_Ld, end.domains_Ld) +
+         row("", "of Lo", start.domains_Lo, end.domains_Lo);
+}
+
+/// The start and the end in numbers.
+std::string table(const Scene& scene, const Measures& start, const Measures& end) {
+  std::string text = fmt::format("{:<22} {:<14} {:>14} {:>14}\n", "", "", "start", "end");
+  text += energy_rows(start, end);
+  text += row("pressure", "P", start.P, end.P);
+  text += tension_rows(start, end);
+  text += row("multiplier of Da", "K coefficient", start.K_multiplier, end.K_multiplier);
+  text += area_rows(start, end);
+  text += row("volume", "V", start.volume, end.volume, word_for(scene.volume.constraint));
+  text += row("reduced volume", "v", start.reduced_volume, end.reduced_volume);
+  text += row("area difference", "Da", start.area_difference, end.area_difference,
+              word_for(scene.area_difference.constraint));
+  text += row("largest speed", "max |v_N|", start.max_speed, end.max_speed);
+  if (start.phases) text += boundary_rows(*start.phases, *end.phases);
+  if (start.stretch) {
+    text += row("area per lipid", "least c", start.stretch->least, end.stretch->least);
+    text += row("", "greatest c", start.stretch->greatest, end.stretch->greatest);
+  }
+  text += row("components", "", start.components, end.components);
+  return text + row("genus", "", start.genus, end.genus);
+}
+
 } // namespace
 
 Course::Course(const Measures& start)
-    : start_(start), end_(start), area_drift_(std::abs(start.area_drift)),
+    : start_(start), end_(start), area_drift_(area_drift_of(start)),
       volume_drift_(std::abs(start.volume_drift)) {}
 
 void Course::add(const Measures& measures) {
   end_ = measures;
   steps_++;
-  area_drift_ = std::max(area_drift_, std::abs(measures.area_drift));
+  area_drift_ = std::max(area_drift_, area_drift_of(measures));
   volume_drift_ = std::max(volume_drift_, std::abs(measures.volume_drift));
 }
 
@@ -52,33 +118,14 @@ std::string caution(std::span<const Event> events) {
 
 std::string summary(const Scene& scene, const Course& course, std::span<const Event> events,
                     const Outcome& outcome, double seconds) {
-  const Measures &start = course.start(), &end = course.end();
   const Grid grid = scene.grid();
   std::string text = fmt::format("{}\nscene {}, {} x {} x {} nodes, spacing {:.5g}\n\n",
                                  scene.title.empty() ? scene.name : scene.title, scene.name,
                                  grid.nx(), grid.ny(), grid.nz(), grid.spacing);
   text += fmt::format("The run {}\n{} steps in {} on {} thread{}, {} kernels\n\n",
-                      words_for(outcome, end.time), course.steps(), duration_text(seconds),
+                      words_for(outcome, course.end().time), course.steps(), duration_text(seconds),
                       thread_count(), thread_count() == 1 ? "" : "s", kernels().name);
-  const auto row = [&](const char* name, const char* symbol, double from, double to,
-                       std::string_view constraint = "") {
-    text += fmt::format("{:<22} {:<14} {:>14.8g} {:>14.8g}{}{}\n", name, symbol, from, to,
-                        constraint.empty() ? "" : "   ", constraint);
-  };
-  text += fmt::format("{:<22} {:<14} {:>14} {:>14}\n", "", "", "start", "end");
-  row("energy", "E", start.energy, end.energy);
-  row("", "int K_M^2 dA", start.int_KM2, end.int_KM2);
-  row("pressure", "P", start.P, end.P);
-  row("tension", "sigma", start.sigma, end.sigma);
-  row("multiplier of Da", "K coefficient", start.K_multiplier, end.K_multiplier);
-  row("area", "A", start.area, end.area, "fixed");
-  row("volume", "V", start.volume, end.volume, word_for(scene.volume.constraint));
-  row("reduced volume", "v", start.reduced_volume, end.reduced_volume);
-  row("area difference", "Da", start.area_difference, end.area_difference,
-      word_for(scene.area_difference.constraint));
-  row("largest speed", "max |v_N|", start.max_speed, end.max_speed);
-  row("components", "", start.components, end.components);
-  row("genus", "", start.genus, end.genus);
+  text += table(scene, course.start(), course.end());
   text += fmt::format("\nLargest drift over the run: area {:.1e}, volume {:.1e} (relative)\n",
                       course.area_drift(), course.volume_drift());
   if (!events.empty()) text += "\nEvents\n";

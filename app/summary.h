@@ -25,7 +25,7 @@ public:
   const Measures& start() const { return start_; }
   const Measures& end() const { return end_; }
   long steps() const { return steps_; }
-  /// The largest so far, relative.
+  /// The largest so far, relative; of the whole area and of those of phases.
   double area_drift() const { return area_drift_; }
   double volume_drift() const { return volume_drift_; }
 
