@@ -53,10 +53,11 @@ Start stored_start(const Scene& scene) {
 
 Start start_of(const Scene& scene) {
   if (scene.shape.kind == ShapeKind::frame) return stored_start(scene);
-  Start start{.phi = initial_phi(scene.shape, scene.grid(), scene.perturbation)};
+  const std::vector<BulgedCap> bulges = bulged_caps(scene);
+  Start start{.phi = initial_phi(scene.shape, scene.grid(), scene.perturbation, bulges)};
   if (scene.has_phases()) start.psi = initial_psi(scene);
-  start.exact = {exact_area(scene.shape), exact_volume(scene.shape)};
-  start.exact->area_ld = exact_area_ld(scene).value_or(0);
+  if (bulges.empty())
+    start.exact = {exact_area(scene.shape), exact_volume(scene.shape), exact_area_ld(scene)};
   return start;
 }
 

@@ -108,6 +108,10 @@ std::vector<Cap> caps_of(const Scene& scene) {
   return caps;
 }
 
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(vector(a).cross(vector(b)).norm(), vector(a).dot(vector(b)));
+}
+
 double area_of(const Cap& cap, const Shape& shape) {
   if (shape.kind != ShapeKind::sphere)
     return View(shape, cap.direction).area_within(cap.half_angle);
@@ -119,11 +123,9 @@ Rim rim_of(const Cap& cap, const Shape& shape) {
   return View(shape, cap.direction).rim(cap.half_angle);
 }
 
-std::optional<double> exact_area_ld(const Scene& scene) {
-  const std::vector<Cap> caps = caps_of(scene);
-  if (caps.empty() || scene.domains.bulge != 0) return {};
+double exact_area_ld(const Scene& scene) {
   double area = 0;
-  for (const Cap& cap : caps) area += area_of(cap, scene.shape);
+  for (const Cap& cap : caps_of(scene)) area += area_of(cap, scene.shape);
   return area;
 }
 
@@ -139,8 +141,7 @@ std::vector<double> initial_psi(const Scene& scene) {
       for (int i = 0; i < 3; ++i)
         d[i] = std::remainder(d[i] - scene.shape.center[i], grid.length(i));
       for (std::size_t i = 0; i < caps.size(); ++i) {
-        const Vector3d x = vector(d), pole = vector(caps[i].direction);
-        const double angle = std::atan2(x.cross(pole).norm(), x.dot(pole));
+        const double angle = angle_between(d, caps[i].direction);
         psi[n] = std::min(psi[n], lengths[i] * (angle - caps[i].half_angle));
       }
     }

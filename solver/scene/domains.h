@@ -1,7 +1,6 @@
 #pragma once
 #include "scene/scene.h"
 
-#include <optional>
 #include <vector>
 
 namespace lamella {
@@ -18,6 +17,9 @@ struct Cap {
 /// nor for the other functions here.
 std::vector<Cap> caps_of(const Scene& scene);
 
+/// Radians.
+double angle_between(const Vec3& a, const Vec3& b);
+
 /// Area of a cap of an analytic shape; as accurate.
 double area_of(const Cap& cap, const Shape& shape);
 
@@ -28,8 +30,8 @@ struct Rim {
 };
 Rim rim_of(const Cap& cap, const Shape& shape);
 
-/// Area of the Ld phase; nothing where it is not that of caps flush with the shape.
-std::optional<double> exact_area_ld(const Scene& scene);
+/// Area of the domains of an analytic shape, all of them flush with it; 0 without domains.
+double exact_area_ld(const Scene& scene);
 
 /// The start psi at the nodes, negative in Ld, x fastest: of the nearest cap the angle from its
 /// rim, times the length on the membrane that an angle has there. So |grad_s psi| is 1 at the rim

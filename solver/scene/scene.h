@@ -65,6 +65,8 @@ struct Domains {
   double bulge = 0;
   std::string file{}; ///< frame: a stored state with phases, or a run's folder for its last one
 
+  /// Whether caps are other than flush with the sphere.
+  bool is_bulged() const { return kind == DomainsKind::caps && bulge != 0 && bulge != half_angle; }
   bool operator==(const Domains&) const = default;
 };
 
@@ -86,7 +88,7 @@ struct Line {
   bool operator==(const Line&) const = default;
 };
 
-/// Local incompressibility: a field c of the area per lipid over its rest value, with the energy
+/// Local incompressibility: a field c of the lipid per area over its rest value, with the energy
 /// modulus / 2 int [(1 - c)^2 + (1 - 1 / c)^2] dA. modulus 0: there is no such field.
 struct Stretch {
   double modulus = 0; ///< mu, energy / length^2

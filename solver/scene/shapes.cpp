@@ -138,8 +138,9 @@ double quartic(double ring, double tube, const Vec3& x) {
 /// once.
 class LevelSet {
 public:
-  LevelSet(const Shape& shape, const Perturbation& perturbation)
-      : shape_(shape), rotation_(rotation(shape)), displacement_(perturbation, shape) {
+  LevelSet(const Shape& shape, const Perturbation& perturbation,
+           std::span<const BulgedCap> caps = {})
+      : shape_(shape), rotation_(rotation(shape)), displacement_(perturbation, shape), caps_(caps) {
     if (shape.kind == ShapeKind::torus) {
       scale_ = 1 / (8 * shape.ring_radius * shape.ring_radius * shape.tube_radius);
     } else {
@@ -156,13 +157,16 @@ public:
     for (int i = 0; i < 3; ++i) x[i] -= w[i];
     if (shape_.kind == ShapeKind::torus)
       return scale_ * quartic(shape_.ring_radius, shape_.tube_radius, x);
-    return scale_ * quadric(axes_, x);
+    double phi = scale_ * quadric(axes_, x);
+    for (const BulgedCap& cap : caps_) phi = cap(phi, x);
+    return phi;
   }
 
 private:
   Shape shape_;
   Rotation rotation_;
   Displacement displacement_;
+  std::span<const BulgedCap> caps_;
   Vec3 axes_{};
   double scale_;
 };
@@ -253,8 +257,8 @@ double shape_function(const Shape& shape, const Vec3& point, const Perturbation&
 }
 
 std::vector<double> initial_phi(const Shape& shape, const Grid& grid,
-                                const Perturbation& perturbation) {
-  const LevelSet level_set(shape, perturbation);
+                                const Perturbation& perturbation, std::span<const BulgedCap> caps) {
+  const LevelSet level_set(shape, perturbation, caps);
   const double shortest = grid.spacing * std::ranges::min(grid.nodes);
   const double width = std::max(16 * grid.spacing, shortest / 4);
   std::vector<double> phi(grid.size());

@@ -1,7 +1,9 @@
 #pragma once
 #include "grid/grid.h"
+#include "scene/bulge.h"
 #include "scene/scene.h"
 
+#include <span>
 #include <vector>
 
 namespace lamella {
@@ -51,9 +53,11 @@ double smallest_radius_of_curvature(const Shape& shape);
 /// it put an error of 70 % into Lap_s K_M at the rim of the oblate with reduced volume 0.6.)
 ///
 /// A perturbation is taken into the argument, phi(x - w(x)) with w its displacement: to first order
-/// it moves the surface by w.
+/// it moves the surface by w. Caps of a sphere that bulge are worked into the polynomial before it
+/// levels off; they keep a slope of 1.
 std::vector<double> initial_phi(const Shape& shape, const Grid& grid,
-                                const Perturbation& perturbation = {});
+                                const Perturbation& perturbation = {},
+                                std::span<const BulgedCap> caps = {});
 
 /// The scaled polynomial at one point of unbounded space.
 double shape_function(const Shape& shape, const Vec3& point, const Perturbation& perturbation = {});
