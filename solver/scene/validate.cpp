@@ -1,4 +1,6 @@
 #include "error.h"
+#include "scene/bulge.h"
+#include "scene/domains.h"
 #include "scene/keys.h"
 #include "scene/perturbation.h"
 #include "scene/scene.h"
@@ -21,7 +23,8 @@ constexpr double least_half_thickness = 1.5;
 constexpr double least_radius_of_curvature = 0.4;
 constexpr double largest_curvature_times_spacing = 1;
 constexpr double least_wrinkling_length = 2;
-constexpr double least_wavelength = 4; // of a perturbation
+constexpr double least_wavelength = 4;                  // of a perturbation
+constexpr double least_rim_radius = 3.5, least_gap = 4; // of domains: phases blend over 4 spacings
 constexpr double rounding = 1e-9;
 
 class Rules {
@@ -39,13 +42,16 @@ public:
       torus_closes();
       rotation_axis();
       perturbation();
+      if (scene_.has_phases()) domains();
       clearance();
       resolution();
+      if (scene_.has_phases()) caps();
     }
+    if (scene_.has_phases()) area_difference_is_free();
     if (scene_.volume.constraint == Constraint::ramped) ramp("volume", scene_.volume.ramp);
     if (scene_.area_difference.constraint == Constraint::ramped)
       ramp("area_difference", scene_.area_difference.ramp);
-    spontaneous_curvature();
+    spontaneous_curvatures();
     pressure();
   }
 
@@ -87,6 +93,9 @@ private:
       for (const double x : (*vector)(scene)) in_range(key, x);
     if (const auto* list = std::get_if<Member<std::vector<double>>>(&key.access))
       for (const double x : (*list)(scene)) in_range(key, x);
+    if (const auto* list = std::get_if<Member<std::vector<Vec3>>>(&key.access))
+      for (const Vec3& vector : (*list)(scene))
+        for (const double x : vector) in_range(key, x);
     if (const auto* nodes = std::get_if<Member<std::array<int, 3>>>(&key.access))
       for (const int n : (*nodes)(scene)) in_range(key, n);
   }
@@ -113,6 +122,12 @@ private:
     if (scene_.perturbation.amplitude > 0)
       refuse({"perturbation.amplitude", "shape.kind"},
              "a stored frame is taken as it is; allowed: 0 with kind = \"frame\"");
+    const DomainsKind domains = scene_.domains.kind;
+    if (domains == DomainsKind::cap || domains == DomainsKind::caps)
+      refuse(
+          {"domains.kind", "shape.kind"},
+          "a stored frame is taken as it is; allowed: \"frame\" for its phases, or \"none\", with "
+          "kind = \"frame\" in [shape]");
   }
 
   void torus_closes() const {
@@ -130,6 +145,94 @@ private:
     if (scene_.shape.rotation_axis == Vec3{0, 0, 0})
       refuse({"shape.rotation_axis"},
              "the axis has no direction; allowed: any [x, y, z] but [0, 0, 0]");
+  }
+
+  /// Of an analytic shape.
+  void domains() const {
+    const Domains& d = scene_.domains;
+    if (d.kind == DomainsKind::frame)
+      refuse({"domains.kind", "shape.kind"},
+             "the phases of a stored frame go with its membrane; allowed: \"frame\" with kind = "
+             "\"frame\" in [shape]");
+    if (scene_.shape.kind == ShapeKind::torus)
+      refuse({"domains.kind", "shape.kind"},
+             "not on a torus yet; allowed: \"none\" with kind = \"torus\" in [shape]");
+    directions();
+    bulge();
+  }
+
+  void directions() const {
+    const Domains& d = scene_.domains;
+    const bool one = d.kind == DomainsKind::cap;
+    if (!one && d.directions.empty())
+      refuse({"domains.directions", "domains.kind"},
+             "no domain; allowed: at least one direction, as in directions = [[0, 0, 1]]");
+    if (one ? d.direction == Vec3{} : std::ranges::count(d.directions, Vec3{}) > 0)
+      refuse({one ? "domains.direction" : "domains.directions"},
+             "a cap has no direction; allowed: any [x, y, z] but [0, 0, 0]");
+  }
+
+  /// The keys that set the size of domains.
+  Keys cap_keys() const {
+    if (scene_.domains.kind == DomainsKind::caps)
+      return {"domains.half_angle", "domains.directions"};
+    return {"domains.area_fraction", "domains.direction"};
+  }
+
+  void caps() const {
+    const std::vector<Cap> caps = caps_of(scene_);
+    for (const Cap& cap : caps) rim(cap);
+    gaps(caps);
+  }
+
+  /// Neither the domain nor what it leaves is too small.
+  void rim(const Cap& cap) const {
+    const double spacings = rim_of(cap, scene_.shape).radius / scene_.grid().spacing;
+    if (spacings >= least_rim_radius * (1 - rounding)) return;
+    refuse(with_grid(cap_keys()),
+           fmt::format("the grid is too coarse for a domain whose boundary has a radius of {:.3g} "
+                       "grid spacings; allowed: at least {:g}; {}",
+                       spacings, least_rim_radius, finer_grid(least_rim_radius / spacings)));
+  }
+
+  void gaps(const std::vector<Cap>& caps) const {
+    for (std::size_t i = 0; i < caps.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const double angle = angle_between(caps[i].direction, caps[j].direction) -
+                             caps[i].half_angle - caps[j].half_angle;
+        const double length = std::min(rim_of(caps[i], scene_.shape).length_an_angle,
+                                       rim_of(caps[j], scene_.shape).length_an_angle);
+        const double spacings = angle * length / scene_.grid().spacing;
+        if (spacings >= least_gap * (1 - rounding)) continue;
+        const std::string pair = fmt::format("domains {} and {}", j + 1, i + 1);
+        if (angle <= 0) refuse(cap_keys(), pair + " overlap; allowed: domains apart");
+        refuse(with_grid(cap_keys()),
+               fmt::format("the grid is too coarse for the gap of {:.3g} grid spacings between {}; "
+                           "allowed: at least {:g}; {}",
+                           spacings, pair, least_gap, finer_grid(least_gap / spacings)));
+      }
+  }
+
+  void bulge() const {
+    const Domains& d = scene_.domains;
+    if (!d.is_bulged()) return;
+    if (scene_.shape.kind != ShapeKind::sphere)
+      refuse({"domains.bulge", "shape.kind"},
+             "only caps of a sphere bulge; allowed: 0, or kind = \"sphere\" in [shape]");
+    if (d.bulge < 0 && d.bulge < d.half_angle - 90)
+      refuse({"domains.bulge", "domains.half_angle"},
+             fmt::format(
+                 "dimples of {} degrees could meet; allowed: at least half_angle - 90, which is {}",
+                 d.bulge, d.half_angle - 90));
+  }
+
+  void area_difference_is_free() const {
+    const AreaDifferenceConstraint& a = scene_.area_difference;
+    const bool is_free = a.constraint == Constraint::free;
+    if (!is_free || a.multiplier != 0)
+      refuse(
+          {is_free ? "area_difference.multiplier" : "area_difference.constraint", "domains.kind"},
+          "not with domains yet; allowed: constraint = \"free\" with multiplier = 0");
   }
 
   /// The keys that set the shape's size, then those of the grid.
@@ -153,7 +256,9 @@ private:
 
   void clearance() const {
     const Grid grid = scene_.grid();
-    const Bounds box = bounding_box(scene_.shape);
+    Bounds box = bounding_box(scene_.shape);
+    for (double& x : box.low) x -= bulge_height(scene_);
+    for (double& x : box.high) x += bulge_height(scene_);
     for (int i = 0; i < 3; ++i) {
       const double side = grid.length(i) / 2;
       const bool at_high_side = side - box.high[i] < side + box.low[i];
@@ -163,7 +268,8 @@ private:
           grid.spacing;
       if (free >= least_clearance * (1 - rounding)) continue;
       Keys keys = size_keys();
-      keys.insert(keys.end(), {"shape.center", "shape.rotation_angle", "shape.rotation_axis"});
+      keys.insert(keys.end(),
+                  {"shape.center", "shape.rotation_angle", "shape.rotation_axis", "domains.bulge"});
       refuse(
           with_grid(keys),
           fmt::format(
@@ -241,13 +347,22 @@ private:
              fmt::format("{} before {}; allowed: times that grow", late[0], late[1]));
   }
 
-  void spontaneous_curvature() const {
+  void spontaneous_curvatures() const {
+    if (scene_.has_phases()) {
+      spontaneous_curvature(scene_.ld.spontaneous_curvature, {"ld.spontaneous_curvature"});
+      spontaneous_curvature(scene_.lo.spontaneous_curvature, {"lo.spontaneous_curvature"});
+      return;
+    }
     const AreaDifferenceConstraint& a = scene_.area_difference;
     double c = scene_.membrane.spontaneous_curvature;
     if (a.constraint == Constraint::free) c -= a.multiplier / (2 * scene_.membrane.bending_modulus);
+    spontaneous_curvature(c, {"membrane.spontaneous_curvature", "area_difference.multiplier"});
+  }
+
+  void spontaneous_curvature(double c, const Keys& keys) const {
     const double product = std::abs(c) * scene_.grid().spacing;
     if (product <= largest_curvature_times_spacing * (1 + rounding)) return;
-    refuse(with_grid({"membrane.spontaneous_curvature", "area_difference.multiplier"}),
+    refuse(with_grid(keys),
            fmt::format(
                "the grid is too coarse for buds of radius 2 / |C| = {:.3g}: |C| times the grid "
                "spacing is {:.3g}; allowed: at most {:g}; {}",
@@ -258,7 +373,10 @@ private:
   void pressure() const {
     if (scene_.volume.constraint != Constraint::free) return;
     const double p = std::abs(scene_.volume.pressure);
-    const double length = std::cbrt(scene_.membrane.bending_modulus / p);
+    const double softest = scene_.has_phases()
+                               ? std::min(scene_.ld.bending_modulus, scene_.lo.bending_modulus)
+                               : scene_.membrane.bending_modulus;
+    const double length = std::cbrt(softest / p);
     const double spacings = length / scene_.grid().spacing;
     if (spacings >= least_wrinkling_length * (1 - rounding)) return;
     refuse(with_grid({"volume.pressure"}),

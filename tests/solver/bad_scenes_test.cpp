@@ -39,6 +39,8 @@ const std::string torus = "[shape]\nkind = \"torus\"\n";
 const std::string fine = "[shape]\nkind = \"sphere\"\nradius = 0.5\n";
 const std::string ramp = "[volume]\nconstraint = \"ramped\"\n";
 const std::string frame = "[shape]\nkind = \"frame\"\n";
+const std::string cap = fine + "[domains]\nkind = \"cap\"\n";
+const std::string caps = fine + "[domains]\nkind = \"caps\"\n";
 
 std::string repeated(const std::string& text, int times) {
   std::string all;
@@ -118,6 +120,21 @@ std::vector<BadScene> bad_scenes() {
       {"FrameMovedElsewhere", frame + "file = \"run\"\ncenter = [0.1, 0, 0]\n",
        "bad.toml:4: [shape] center: belongs to kind", "not \"frame\"; allowed: kind, file"},
 
+      {"MembraneWithDomains", cap + "[membrane]\nbending_modulus = 2\n",
+       "bad.toml:7: [membrane] bending_modulus: belongs to [domains] kind = \"none\", not \"cap\"",
+       "allowed: [ld], [lo], [line]"},
+      {"PhaseWithoutDomains", fine + "[lo]\nbending_modulus = 2\n",
+       "bad.toml:5: [lo] bending_modulus: belongs to [domains] kind = \"cap\" or \"caps\" or "
+       "\"frame\", not \"none\"",
+       "allowed: [membrane]"},
+      {"LineWithoutDomains", fine + "[line]\ntension = 2\n",
+       "bad.toml:5: [line] tension: belongs to", "allowed: [membrane]"},
+      {"CurvatureStartWithoutDomains", fine + "[domains]\ncurvature_start_time = 1\n",
+       "bad.toml:5: [domains] curvature_start_time: belongs to kind", "allowed: kind"},
+      {"KeyOfAnotherKindOfDomains", cap + "half_angle = 20\n",
+       "bad.toml:6: [domains] half_angle: belongs to kind = \"caps\", not \"cap\"",
+       "allowed: kind, area_fraction, direction, curvature_start_time"},
+
       // Ranges
       {"NodesNotMultipleOfEight", "[grid]\nnodes = 60\n",
        "bad.toml:2: [grid] nodes: 60 is not a multiple of 8", "from 16 to 512"},
@@ -170,6 +187,23 @@ std::vector<BadScene> bad_scenes() {
       {"ManyArms", "[perturbation]\nfold = 13\n", "bad.toml:2: [perturbation] fold: 13",
        "from 0 to 12"},
       {"NegativeSeed", "[perturbation]\nseed = -1\n", "bad.toml:2: [perturbation] seed: -1",
+       "from 0"},
+
+      {"WholeFraction", cap + "area_fraction = 1\n", "bad.toml:6: [domains] area_fraction: 1",
+       "above 0 and below 1"},
+      {"NanInADirection", caps + "directions = [[0, 0, 1], [0, nan, 1]]\n",
+       "bad.toml:6: [domains] directions: nan", "not a finite number"},
+      {"OneDirectionForAList", caps + "directions = [0, 0, 1]\n",
+       "bad.toml:6: [domains] directions: a list of 3 does not fit", "[[x, y, z], ...]"},
+      {"DirectionInThePlane", caps + "directions = [[0, 1]]\n",
+       "bad.toml:6: [domains] directions: a list of 1 does not fit", "three numbers each"},
+      {"BulgeBeyondAHemisphere", caps + "bulge = 91\n", "bad.toml:6: [domains] bulge: 91",
+       "from -90 to 90"},
+      {"NoModulusOfLd", cap + "[ld]\nbending_modulus = 0\n",
+       "bad.toml:7: [ld] bending_modulus: 0 is out of range", "from 1e-06"},
+      {"NegativeLineTension", cap + "[line]\ntension = -1\n", "bad.toml:7: [line] tension: -1",
+       "from 0"},
+      {"NegativeStretchModulus", "[stretch]\nmodulus = -1\n", "bad.toml:2: [stretch] modulus: -1",
        "from 0"},
 
       // Rules that tie keys together
@@ -242,6 +276,55 @@ std::vector<BadScene> bad_scenes() {
        "bad.toml:5: [membrane] spontaneous_curvature:", "at most 1; nodes = 80 would do"},
       {"BoxNotResolvedByDefaultGrid", "[grid]\nhalf_width = 100\n",
        "bad.toml:2: [grid] half_width: the grid", "radius of curvature"},
+
+      {"DomainsOnATorus", torus + "[domains]\nkind = \"cap\"\n",
+       "bad.toml:4: [domains] kind: not on a torus yet", "allowed: \"none\""},
+      {"CapOnAFrame", frame + "file = \"run\"\n[domains]\nkind = \"cap\"\n",
+       "bad.toml:5: [domains] kind: a stored frame is taken as it is",
+       "allowed: \"frame\" for its phases, or \"none\""},
+      {"PhasesOfAFrameOnAShape", fine + "[domains]\nkind = \"frame\"\nfile = \"run\"\n",
+       "bad.toml:5: [domains] kind: the phases of a stored frame go with its membrane",
+       "kind = \"frame\" in [shape]"},
+      {"NoDirection", cap + "direction = [0, 0, 0]\n",
+       "bad.toml:6: [domains] direction: a cap has no direction", "but [0, 0, 0]"},
+      {"NoDirectionOfOneCap", caps + "directions = [[0, 0, 1], [0, 0, 0]]\n",
+       "bad.toml:6: [domains] directions: a cap has no direction", "but [0, 0, 0]"},
+      {"CapsWithoutDirections", caps, "bad.toml:5: [domains] kind: no domain",
+       "at least one direction"},
+      {"NoCap", caps + "directions = []\n", "bad.toml:6: [domains] directions: no domain",
+       "at least one direction"},
+      {"SmallDomain", cap + "area_fraction = 0.01\n",
+       "bad.toml:6: [domains] area_fraction: the grid is too coarse",
+       "radius of 3.18 grid spacings; allowed: at least 3.5; nodes = 72 would do"},
+      {"SmallRest", cap + "area_fraction = 0.99\n",
+       "bad.toml:6: [domains] area_fraction: the grid is too coarse", "radius of 3.18"},
+      {"SmallCaps", caps + "directions = [[0, 0, 1]]\nhalf_angle = 10\n",
+       "bad.toml:7: [domains] half_angle: the grid is too coarse", "radius of 2.78"},
+      {"CapsThatOverlap", caps + "directions = [[0, 0, 1], [0, 2, 2]]\nhalf_angle = 23\n",
+       "bad.toml:7: [domains] half_angle: domains 1 and 2 overlap", "domains apart"},
+      {"CapsThatAlmostTouch", caps + "directions = [[0, 0, 1], [1, 0, 0], [0, 2, 2]]\n",
+       "bad.toml:6: [domains] directions: the grid is too coarse for the gap of 1.4 grid spacings",
+       "between domains 1 and 3; allowed: at least 4; nodes = 184 would do"},
+      {"BulgeOfASpheroid",
+       "[domains]\nkind = \"caps\"\ndirections = [[0, 0, 1]]\nhalf_angle = 60\nbulge = 10\n",
+       "bad.toml:5: [domains] bulge: only caps of a sphere bulge", "kind = \"sphere\" in [shape]"},
+      {"DimplesThatMeet",
+       caps + "directions = [[0, 0, 1], [0, 0, -1]]\nhalf_angle = 70\nbulge = -40\n",
+       "bad.toml:8: [domains] bulge: dimples of -40 degrees could meet",
+       "at least half_angle - 90, which is -20"},
+      {"BulgeTouchesTheSide",
+       "[shape]\nkind = \"sphere\"\nradius = 0.9\n[domains]\nkind = \"caps\"\ndirections = [[0, 0, "
+       "1]]\nbulge = 60\n",
+       "bad.toml:3: [shape] radius: the shape reaches to x = -1.023", "outside the box"},
+      {"AreaDifferenceOfDomains", cap + "[area_difference]\nconstraint = \"fixed\"\n",
+       "bad.toml:7: [area_difference] constraint: not with domains yet", "\"free\""},
+      {"MultiplierOfDomains", cap + "[area_difference]\nmultiplier = 3\n",
+       "bad.toml:7: [area_difference] multiplier: not with domains yet", "multiplier = 0"},
+      {"CurvatureOfAPhaseNotResolved", cap + "[lo]\nspontaneous_curvature = -40\n",
+       "bad.toml:7: [lo] spontaneous_curvature: the grid is too coarse", "nodes = 80 would do"},
+      {"WrinklesOfTheSoftPhaseNotResolved",
+       cap + "[volume]\nconstraint = \"free\"\npressure = -5000\n[ld]\nbending_modulus = 10\n",
+       "bad.toml:8: [volume] pressure: the grid is too coarse", "1.87 grid spacings"},
 
       // TOML
       {"Empty", "", "bad.toml:1: the scene is empty", "allowed"},

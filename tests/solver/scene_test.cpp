@@ -121,6 +121,59 @@ frames = 5
   EXPECT_DOUBLE_EQ(scene.grid().length(2), 6);
 }
 
+TEST(Scene, TakesEveryKeyOfTwoPhases) {
+  const Scene scene = parse_scene(R"(
+[shape]
+kind = "sphere"
+[domains]
+kind = "caps"
+directions = [[0, 0, 2], [1, -1, 0.5]]
+half_angle = 25
+bulge = -30
+curvature_start_time = 1e-3
+[ld]
+bending_modulus = 2
+spontaneous_curvature = -3
+gaussian_modulus = 3.6
+[lo]
+bending_modulus = 10
+spontaneous_curvature = 4
+gaussian_modulus = -1
+[line]
+tension = 30
+geodesic_modulus = 0.1
+torsion_modulus = -0.2
+normal_modulus = 0.3
+[stretch]
+modulus = 1000
+)",
+                                  "scene.toml");
+  Scene expected = scene_of_kind(ShapeKind::sphere);
+  expected.name = "scene";
+  expected.domains = {.kind = DomainsKind::caps,
+                      .directions = {{0, 0, 2}, {1, -1, 0.5}},
+                      .half_angle = 25,
+                      .bulge = -30};
+  expected.curvature_start_time = 1e-3;
+  expected.ld = {2, -3, 3.6};
+  expected.lo = {10, 4, -1};
+  expected.line = {30, 0.1, -0.2, 0.3};
+  expected.stretch.modulus = 1000;
+  EXPECT_EQ(scene, expected);
+}
+
+TEST(Scene, IsTheSameAfterWritingAndReadingWithDomains) {
+  for (const char* name : {"fig9", "fig12_kl5_C-5", "fig13b", "fig15b", "baumgart_0.18"}) {
+    const Scene scene = builtin_scene(name);
+    EXPECT_EQ(parse_scene(to_toml(scene), "other.toml"), scene) << to_toml(scene);
+  }
+  const Scene frame = parse_scene("[shape]\nkind = \"frame\"\nfile = \"run\"\n[domains]\nkind = "
+                                  "\"frame\"\nfile = \"other\"\n",
+                                  "scene.toml");
+  EXPECT_EQ(frame.domains.file, "other");
+  EXPECT_EQ(parse_scene(to_toml(frame), "other.toml"), frame);
+}
+
 TEST(Scene, IsTheSameAfterWritingAndReading) {
   for (const char* kind : {"sphere", "oblate", "prolate", "ellipsoid", "torus"}) {
     const Overrides changes{std::string("shape.kind=") + kind, "title=some \"quotes\" \\ here",
@@ -161,6 +214,12 @@ TEST(Scene, WritesWhatCountsAndOnlyThat) {
   EXPECT_THAT(text, HasSubstr("ring_radius = 0.5"));
   EXPECT_THAT(text, HasSubstr("radius of the tube (length)"));
   EXPECT_THAT(text, Not(HasSubstr("semi_axis")));
+  EXPECT_THAT(text, HasSubstr("[membrane]"));
+  for (const char* section : {"[ld]", "[lo]", "[line]"}) EXPECT_THAT(text, Not(HasSubstr(section)));
+  const std::string two_phases = to_toml(builtin_scene("fig13b"));
+  EXPECT_THAT(two_phases, HasSubstr("[ld]\nbending_modulus = 1 "));
+  EXPECT_THAT(two_phases, HasSubstr("[line]\ntension = 20 "));
+  EXPECT_THAT(two_phases, Not(HasSubstr("[membrane]")));
 }
 
 TEST(Overrides, ReplaceTheFileAndTheLastOneWins) {
@@ -195,6 +254,20 @@ TEST(Overrides, OfAConstraintDropTheKeysOfTheOldOne) {
   EXPECT_EQ(scene.area_difference.ramp, Ramp{});
 }
 
+TEST(Overrides, OfTheDomainsDropTheModuliOfTheOldPhases) {
+  const Overrides none{"domains.kind=none", "membrane.bending_modulus=2"};
+  const Scene one = builtin_scene("fig13b", none);
+  EXPECT_EQ(one.membrane.bending_modulus, 2);
+  EXPECT_EQ(one.line, Line{});
+  EXPECT_EQ(one.stretch.modulus, 1000);
+  const Overrides caps{"domains.kind=caps", "domains.directions=[[0, 0, 1], [1, 0, 0]]",
+                       "line.tension=3"};
+  const Scene two = parse_scene("[shape]\nkind = \"sphere\"\n[membrane]\nbending_modulus = 2\n",
+                                "scene.toml", caps);
+  EXPECT_EQ(two.domains.directions, (std::vector<Vec3>{{0, 0, 1}, {1, 0, 0}}));
+  EXPECT_EQ(two.membrane, Membrane{});
+}
+
 TEST(Overrides, AreBlamedForTheRuleTheyBreak) {
   const Overrides coarse{"grid.nodes=32"};
   EXPECT_THAT(message_of([&] { builtin_scene("fig3_prolate", coarse); }),
@@ -202,7 +275,7 @@ TEST(Overrides, AreBlamedForTheRuleTheyBreak) {
 }
 
 TEST(Builtin, ScenesAreValidAndCarryTheirTitles) {
-  ASSERT_GE(builtin_scenes().size(), 15u);
+  ASSERT_GE(builtin_scenes().size(), 34u);
   for (const BuiltinScene& builtin : builtin_scenes()) {
     const Scene scene = builtin_scene(builtin.name);
     EXPECT_EQ(scene.title, builtin.title);
@@ -221,6 +294,14 @@ TEST(Builtin, FigureScenesRunOnTheGridsOfTheConvergenceStudies) {
     if (nodes >= 40) {
       EXPECT_NO_THROW(builtin_scene("fig3_prolate", grid)) << nodes;
     }
+  }
+}
+
+TEST(Builtin, ScenesOfTwoPhasesRunOnTheGridsOfTable3) {
+  for (const int nodes : {48, 64, 80}) {
+    const Overrides grid{"grid.nodes=" + std::to_string(nodes)};
+    for (const char* name : {"fig9", "fig11_v0.7_kl10", "baumgart_0.95"})
+      EXPECT_NO_THROW(builtin_scene(name, grid)) << name << nodes;
   }
 }
 
