@@ -3,6 +3,7 @@
 #include "error.h"
 #include "run_folder.h"
 #include "scene/builtin.h"
+#include "scene/keys.h"
 #include "scene/nearest.h"
 #include "scene/scene_toml.h"
 
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <optional>
 
 namespace lamella {
 
@@ -68,29 +70,45 @@ Scene scene_of(const std::string& wanted, std::span<const std::string> overrides
   refuse_word(wanted);
 }
 
-/// Where relative paths of a scene count from.
-fs::path home_of(const std::string& wanted, std::span<const std::string> overrides) {
+/// Where a relative path counts from that a scene gives for a key, such as shape.file.
+fs::path home_of(const std::string& wanted, std::span<const std::string> overrides,
+                 std::string_view key) {
   const bool is_set = std::ranges::any_of(
-      overrides, [](const std::string& text) { return text.starts_with("shape.file"); });
+      overrides, [&](const std::string& text) { return text.starts_with(key); });
   return is_set || is_builtin(wanted) ? fs::path() : fs::path(wanted).parent_path();
 }
 
-[[noreturn]] void refuse_start(const Scene& scene, const fs::path& file) {
+[[noreturn]] void refuse_frame(const Scene& scene, const Key& key, const fs::path& file,
+                               const std::string& what_is_missing) {
   throw SceneError(fmt::format(
-      "{}: [shape] file = \"{}\": {}{}", scene.name, scene.shape.file,
+      "{}: {} = {}: {}", scene.name, key.label(), value_text(key, scene),
       is_there(file) ? file.string() + " is neither a frame nor the folder of a run that has ended"
-                     : "no such frame, run or built-in scene",
-      is_there(file) ? "" : suggestion(scene.shape.file, builtin_names())));
+                     : what_is_missing));
+}
+
+/// The path of a frame, or of the last one of a run.
+std::optional<std::string> find_frame(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_regular_file(file, ignored)) return fs::absolute(file).string();
+  if (const auto frame = end_of_run(file)) return fs::absolute(*frame).string();
+  return {};
 }
 
 /// What shape.file is to be, see find_scene().
 std::string find_start(const Scene& scene, const fs::path& home) {
   const fs::path file = home / scene.shape.file;
-  std::error_code ignored;
-  if (fs::is_regular_file(file, ignored)) return fs::absolute(file).string();
-  if (const auto frame = end_of_run(file)) return fs::absolute(*frame).string();
+  if (const auto frame = find_frame(file)) return *frame;
   if (is_builtin(scene.shape.file)) return scene.shape.file;
-  refuse_start(scene, file);
+  refuse_frame(scene, *find_key("shape", "file"), file,
+               "no such frame, run or built-in scene" +
+                   suggestion(scene.shape.file, builtin_names()));
+}
+
+/// The same for domains.file.
+std::string find_phases(const Scene& scene, const fs::path& home) {
+  const fs::path file = home / scene.domains.file;
+  if (const auto frame = find_frame(file)) return *frame;
+  refuse_frame(scene, *find_key("domains", "file"), file, "no such frame or run");
 }
 
 } // namespace
@@ -98,7 +116,9 @@ std::string find_start(const Scene& scene, const fs::path& home) {
 Scene find_scene(const std::string& wanted, std::span<const std::string> overrides) {
   Scene scene = scene_of(wanted, overrides);
   if (scene.shape.kind == ShapeKind::frame)
-    scene.shape.file = find_start(scene, home_of(wanted, overrides));
+    scene.shape.file = find_start(scene, home_of(wanted, overrides, "shape.file"));
+  if (scene.domains.kind == DomainsKind::frame && !scene.domains.file.empty())
+    scene.domains.file = find_phases(scene, home_of(wanted, overrides, "domains.file"));
   return scene;
 }
 

@@ -126,6 +126,22 @@ TEST_F(Continued, only_from_what_is_there) {
   EXPECT_THAT(refusal_of("second.toml", 4), HasSubstr("second.toml: cannot be read as a frame"));
 }
 
+TEST_F(Continued, only_with_phases_that_are_there) {
+  const auto refusal = [&](const std::string& file) {
+    write(work() / "scenes" / "bad.toml",
+          scene_from("first") + "[domains]\nkind = \"frame\"\n" + file);
+    const Result result = call({"run", "scenes/bad.toml", "-o", "bad"});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_FALSE(fs::exists(work() / "bad"));
+    return result.err;
+  };
+  EXPECT_THAT(refusal("file = \"frst\"\n"),
+              HasSubstr("bad: [domains] file = \"frst\": no such frame or run"));
+  EXPECT_THAT(refusal("file = \"first/frames/frame_0001.hdf\"\n"),
+              HasSubstr("frame_0001.hdf has one phase; domains.kind must be \"none\""));
+  EXPECT_THAT(refusal(""), HasSubstr("frame_0004.hdf has one phase"));
+}
+
 TEST_F(Continued, only_on_the_grid_of_the_frame) {
   const Result result = call({"run", "scenes/second.toml", "-o", "run", "--set", "grid.nodes=48"});
   EXPECT_EQ(result.code, 2);
