@@ -215,8 +215,8 @@ std::string describe_keys() {
                             : fmt::format("\n### [{}]\n\n", section);
     const Key& first = *find_key(section, keys_of_section(section).front());
     if (!first.cases.empty())
-      text +=
-          fmt::format("With {} {}:\n\n", choice_key(section).label(), fmt::join(first.cases, ", "));
+      text += fmt::format("With {} = \"{}\":\n\n", choice_key(section).label(),
+                          fmt::join(first.cases, "\" or \""));
     text += "| key | allowed | unit | default | meaning |\n|---|---|---|---|---|\n";
     for (const Key& key : scene_keys()) {
       if (key.section != section) continue;

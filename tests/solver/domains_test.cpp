@@ -1,5 +1,7 @@
 #include "dynamics/start.h"
 #include "error.h"
+#include "geometry/phase_boundary.h"
+#include "scene/builtin.h"
 #include "scene/domains.h"
 #include "scene/scene_toml.h"
 #include "start_surface.h"
@@ -231,6 +233,36 @@ TEST(Bulges, OfTheHalfAngleAreFlush) {
   const Scene flush = with_bulges(20, 20);
   EXPECT_EQ(start_of(flush).phi, initial_phi(globe, flush.grid()));
   EXPECT_TRUE(start_of(flush).exact);
+}
+
+/// The boundary of the domains a scene starts with, as the solver finds it.
+PhaseBoundary boundary_of(const Scene& scene) {
+  const Start start = start_of(scene);
+  StartSurface surface(start.phi, scene.grid());
+  const double width = 6 * scene.grid().spacing;
+  std::vector<double> nodal = start.psi;
+  for (double& psi : nodal) psi = width * std::tanh(psi / width);
+  LevelSet psi(scene.grid());
+  std::ranges::copy(nodal, psi.coefficients().begin());
+  psi.fit(nodal, surface.fourier);
+  PhaseBoundary boundary;
+  boundary.trace(surface.phi, psi, surface.band);
+  return boundary;
+}
+
+// That of dimples is at their rounded rim, a quarter of a spacing further in.
+TEST(Starts, HaveTheBoundaryOfEveryDomain) {
+  for (const auto& [name, count, tolerance] : {std::tuple{"fig9", 1u, 1e-4},
+                                               {"fig13a", 12u, 1e-4},
+                                               {"fig15a", 14u, 1e-4},
+                                               {"fig15b", 14u, 0.015}}) {
+    const Scene scene = builtin_scene(name);
+    const PhaseBoundary boundary = boundary_of(scene);
+    EXPECT_EQ(boundary.curves(), count) << name;
+    EXPECT_EQ(boundary.unresolved().size(), 0u) << name;
+    const double exact = count * 2 * pi * 0.98 * std::sin(caps_of(scene)[0].half_angle);
+    EXPECT_NEAR(boundary.length() / exact, 1, tolerance) << name;
+  }
 }
 
 TEST(Starts, HaveWhatTheSceneHas) {
