@@ -29,10 +29,13 @@ if(NOT CMAKE_INSTALL_RPATH)
   set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 endif()
 
-set(lamella_module_files "${PROJECT_SOURCE_DIR}/vtkfilters/offscreen/vtk.module")
+add_subdirectory(vtkfilters/fields)
+set(lamella_module_files
+  "${PROJECT_SOURCE_DIR}/vtkfilters/vtk.module"
+  "${PROJECT_SOURCE_DIR}/vtkfilters/offscreen/vtk.module")
 vtk_module_scan(
   MODULE_FILES ${lamella_module_files}
-  REQUEST_MODULES Lamella::vtkLamellaOffscreen
+  REQUEST_MODULES Lamella::vtkLamellaFilters Lamella::vtkLamellaOffscreen
   PROVIDES_MODULES lamella_modules
   ENABLE_TESTS OFF)
 vtk_module_build(

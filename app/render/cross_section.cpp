@@ -1,6 +1,6 @@
 #include "render/cross_section.h"
 
-#include "render/sampler.h"
+#include "fields/sampler.h"
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>

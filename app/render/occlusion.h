@@ -1,5 +1,5 @@
 #pragma once
-#include "render/sampler.h"
+#include "fields/sampler.h"
 #include "store/frame.h"
 
 namespace lamella::render {

@@ -7,7 +7,6 @@
 #include "render/membrane_view.h"
 #include "render/occlusion.h"
 #include "render/phases.h"
-#include "render/refine.h"
 #include "render/studio.h"
 #include "render/style.h"
 #include "render/surface.h"
@@ -253,35 +252,6 @@ TEST_F(Render, says_that_there_is_no_membrane) {
   const Frame empty = frame_of([](const Vec3&) { return 1.0; }, 2e-3);
   EXPECT_THAT(error_of([&] { extract_surface(empty); }),
               AllOf(HasSubstr("no membrane"), HasSubstr("2x10^-3")));
-}
-
-TEST_F(Render, refines_polynomials_of_degree_five_exactly) {
-  const auto polynomial = [](const Vec3& p) {
-    return std::pow(p[0], 5) - 2 * std::pow(p[1], 4) * p[2] + p[0] * p[1] * p[2] + 0.5;
-  };
-  Frame coarse = frame_of(polynomial, 0, Grid::cube(12, 1));
-  for (const double phi : coarse.phi) coarse.psi.push_back(1 - phi);
-  const Frame fine = refine(coarse, 3);
-  const Grid& grid = fine.grid;
-  EXPECT_EQ(grid, Grid::cube(36, 1));
-  for (std::size_t n = 0; n < grid.size(); ++n) {
-    const Vec3 p = grid.position(n);
-    if (std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > 0.5) continue; // near the ends
-    EXPECT_NEAR(fine.phi[n], polynomial(p), 1e-12);
-    EXPECT_NEAR(fine.psi[n], 1 - polynomial(p), 1e-12);
-  }
-}
-
-TEST_F(Render, crops_to_the_membrane_and_keeps_its_place) {
-  Frame whole = sphere(0.3, {0.2, 0, 0});
-  for (const double phi : whole.phi) whole.psi.push_back(1 - phi);
-  const Frame part = crop(whole, 0.1);
-  EXPECT_THAT(part.grid.nodes, ElementsAre(30, 20, 20));
-  for (std::size_t n = 0; n < part.grid.size(); ++n) {
-    const Vec3 p = part.grid.position(n);
-    EXPECT_NEAR(part.phi[n], std::hypot(p[0] - 0.2, p[1], p[2]) - 0.3, 1e-12);
-    EXPECT_NEAR(part.psi[n], 1 - part.phi[n], 1e-12);
-  }
 }
 
 TEST_F(Render, shades_hollows_and_not_what_bulges_out) {

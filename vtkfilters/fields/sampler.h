@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace lamella::render {
+namespace lamella {
 
 /// A field and its gradient between the nodes, trilinear. Grid and values must outlive it.
 class Sampler {
@@ -59,4 +59,4 @@ private:
   const std::vector<double>& values_;
 };
 
-} // namespace lamella::render
+} // namespace lamella

@@ -1,9 +1,11 @@
-#include "render/refine.h"
+#include "fields/refine.h"
+
+#include "parallel.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lamella::render {
+namespace lamella {
 namespace {
 
 constexpr int taps = 6;
@@ -19,27 +21,43 @@ std::array<double, taps> lagrange_weights(double t) {
   return weights;
 }
 
-/// Refine along one axis; `inner` values lie between neighbours along it, `outer` is the number of
-/// lines' sets.
+/// Where a value of the refined lattice comes from, along one axis.
+struct Stencil {
+  int base; ///< the node before it
+  std::array<double, taps> weights;
+};
+
+std::vector<Stencil> stencils(int nodes, int factor) {
+  std::vector<Stencil> out;
+  for (int i = 0; i < nodes * factor; ++i) {
+    const double position = (i + 0.5) / factor - 0.5; // in old nodes; cells stay aligned
+    const int base = int(std::floor(position));
+    out.push_back({base, lagrange_weights(position - base)});
+  }
+  return out;
+}
+
+/// Refine along one axis; `inner` values lie between neighbours along it.
 std::vector<double> refine_axis(const std::vector<double>& in, int nodes, std::size_t inner,
                                 int factor) {
-  const std::size_t outer = in.size() / (nodes * inner);
+  const std::vector<Stencil> along = stencils(nodes, factor);
   std::vector<double> out(in.size() * factor);
-  for (std::size_t o = 0; o < outer; ++o)
-    for (int i = 0; i < nodes * factor; ++i) {
-      const double position = (i + 0.5) / factor - 0.5; // in old nodes; cells stay aligned
-      const int base = int(std::floor(position));
-      const auto weights = lagrange_weights(position - base);
-      std::array<const double*, taps> rows;
+  const std::size_t rows = out.size() / inner, grain = std::max<std::size_t>(1, 16384 / inner);
+  parallel_for(rows, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r) {
+      const auto& [base, weights] = along[r % along.size()];
+      const std::size_t first = r / along.size() * nodes;
+      std::array<const double*, taps> from;
       for (int k = 0; k < taps; ++k)
-        rows[k] = &in[(o * nodes + std::clamp(base - 2 + k, 0, nodes - 1)) * inner];
-      double* row = &out[(o * nodes * factor + i) * inner];
+        from[k] = &in[(first + std::clamp(base - 2 + k, 0, nodes - 1)) * inner];
+      double* row = &out[r * inner];
       for (std::size_t q = 0; q < inner; ++q) {
         double sum = 0;
-        for (int k = 0; k < taps; ++k) sum += weights[k] * rows[k][q];
+        for (int k = 0; k < taps; ++k) sum += weights[k] * from[k][q];
         row[q] = sum;
       }
     }
+  });
   return out;
 }
 
@@ -78,14 +96,16 @@ Frame crop(const Frame& frame, double margin) {
   return {.grid = kept,
           .time = frame.time,
           .phi = cropped(frame.phi, grid, cut),
-          .psi = cropped(frame.psi, grid, cut)};
+          .psi = cropped(frame.psi, grid, cut),
+          .c = cropped(frame.c, grid, cut)};
 }
 
 Frame refine(const Frame& frame, int factor) {
-  Frame fine{.grid = frame.grid, .time = frame.time, .phi = frame.phi, .psi = frame.psi};
+  Frame fine{
+      .grid = frame.grid, .time = frame.time, .phi = frame.phi, .psi = frame.psi, .c = frame.c};
   std::size_t inner = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::vector<double>* values : {&fine.phi, &fine.psi})
+    for (std::vector<double>* values : {&fine.phi, &fine.psi, &fine.c})
       if (!values->empty()) *values = refine_axis(*values, frame.grid.nodes[axis], inner, factor);
     fine.grid.nodes[axis] *= factor;
     inner *= fine.grid.nodes[axis];
@@ -94,4 +114,4 @@ Frame refine(const Frame& frame, int factor) {
   return fine;
 }
 
-} // namespace lamella::render
+} // namespace lamella

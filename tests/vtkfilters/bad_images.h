@@ -1,0 +1,60 @@
+#pragma once
+#include "vtk_test.h"
+
+#include <vtkMatrix3x3.h>
+
+#include <limits>
+
+namespace lamella {
+
+/// An image that is no vesicle, and a part of what is to be said about it.
+struct BadImage {
+  std::string complaint;
+  vtkSmartPointer<vtkImageData> image;
+};
+
+/// Images that no filter can do anything with.
+inline std::vector<BadImage> bad_images() {
+  std::vector<BadImage> bad;
+  const auto add = [&](const char* complaint, auto&& spoil) {
+    bad.push_back({complaint, image_of(sphere(0.5), 32)});
+    spoil(*bad.back().image);
+  };
+  const auto set_phi = [](double value) {
+    return [value](vtkImageData& image) { image.GetPointData()->GetArray("phi")->Fill(value); };
+  };
+  add("the image is empty", [](vtkImageData& image) { image.Initialize(); });
+  add("no point data", [](vtkImageData& image) { image.GetPointData()->Initialize(); });
+  add("not finite", set_phi(std::numeric_limits<double>::quiet_NaN()));
+  add("1 of the 32768 values of \"phi\" are not finite", [](vtkImageData& image) {
+    image.GetPointData()->GetArray("phi")->SetComponent(7, 0, INFINITY);
+  });
+  add("nowhere negative", set_phi(1));
+  add("nowhere positive", set_phi(-1));
+  add("there is no membrane", set_phi(0));
+  add("the membrane is not closed", [](vtkImageData& image) {
+    vtkDataArray* phi = image.GetPointData()->GetArray("phi");
+    for (vtkIdType n = 0; n < phi->GetNumberOfTuples(); ++n)
+      phi->SetComponent(n, 0, -phi->GetComponent(n, 0));
+  });
+  add("spacings of 0.1, 0.1 and 0.2", [](vtkImageData& image) { image.SetSpacing(.1, .1, .2); });
+  add("the image is turned",
+      [](vtkImageData& image) { image.SetDirectionMatrix(0, 1, 0, -1, 0, 0, 0, 0, 1); });
+  add("2 components", [](vtkImageData& image) {
+    vtkNew<vtkDoubleArray> vectors;
+    vectors->SetName("phi");
+    vectors->SetNumberOfComponents(2);
+    vectors->SetNumberOfTuples(image.GetNumberOfPoints());
+    vectors->Fill(0);
+    image.GetPointData()->Initialize();
+    image.GetPointData()->AddArray(vectors);
+  });
+  add("8 are the least", [](vtkImageData& image) {
+    image.SetDimensions(64, 64, 1);
+    image.GetPointData()->Initialize();
+    image.GetPointData()->AddArray(array_of("phi", std::vector<double>(4096, 1.0)));
+  });
+  return bad;
+}
+
+} // namespace lamella

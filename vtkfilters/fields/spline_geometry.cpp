@@ -1,0 +1,83 @@
+#include "fields/spline_geometry.h"
+
+#include "parallel.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lamella {
+namespace {
+
+constexpr std::size_t chunk = 256;
+
+/// A chunk of points and what the kernels say of them.
+struct Samples {
+  std::size_t count;
+  std::array<double, chunk> x, y, z, phi, nx, ny, nz, grad, KM, K, lap_KM;
+
+  ConstPoints points() const { return {x.data(), y.data(), z.data()}; }
+  SurfaceArrays arrays() {
+    return {phi.data(),  nx.data(), ny.data(), nz.data(),
+            grad.data(), KM.data(), K.data(),  lap_KM.data()};
+  }
+  void evaluate(const SplineView& spline, bool with_lap_KM) {
+    (with_lap_KM ? kernels().jets : kernels().curvatures)(spline, count, points(), arrays());
+  }
+  void take_newton_step() {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double distance = phi[i] / grad[i];
+      x[i] -= distance * nx[i];
+      y[i] -= distance * ny[i];
+      z[i] -= distance * nz[i];
+    }
+  }
+};
+
+void take(vtkPoints& points, std::size_t begin, std::size_t end, Samples& samples) {
+  samples.count = end - begin;
+  for (std::size_t i = 0; i < samples.count; ++i) {
+    Vec3 p;
+    points.GetPoint(vtkIdType(begin + i), p.data());
+    samples.x[i] = p[0], samples.y[i] = p[1], samples.z[i] = p[2];
+  }
+}
+
+/// The other way round, from `begin` on, with the geometry.
+void put(const Samples& s, std::size_t begin, vtkPoints& points, SplineGeometry& geometry) {
+  for (std::size_t i = 0; i < s.count; ++i) {
+    points.SetPoint(vtkIdType(begin + i), s.x[i], s.y[i], s.z[i]);
+    float* normal = &geometry.normals[3 * (begin + i)];
+    normal[0] = float(s.nx[i]), normal[1] = float(s.ny[i]), normal[2] = float(s.nz[i]);
+    geometry.KM[begin + i] = s.KM[i];
+    geometry.K[begin + i] = s.K[i];
+    if (!geometry.lap_KM.empty()) geometry.lap_KM[begin + i] = s.lap_KM[i];
+  }
+}
+
+} // namespace
+
+LevelSet fitted(const Grid& grid, std::span<const double> values) {
+  Fourier fourier(grid);
+  LevelSet f(grid);
+  std::ranges::copy(values, f.coefficients().begin());
+  f.fit(values, fourier);
+  return f;
+}
+
+SplineGeometry move_onto(const LevelSet& phi, vtkPoints& points, bool with_lap_KM) {
+  const SplineView spline = phi.view();
+  const std::size_t n = points.GetNumberOfPoints();
+  SplineGeometry geometry{std::vector<float>(3 * n), std::vector<double>(n), std::vector<double>(n),
+                          std::vector<double>(with_lap_KM ? n : 0)};
+  parallel_for(n, chunk, [&](std::size_t begin, std::size_t end) {
+    Samples samples;
+    take(points, begin, end, samples);
+    samples.evaluate(spline, false);
+    samples.take_newton_step();
+    samples.evaluate(spline, with_lap_KM);
+    put(samples, begin, points, geometry);
+  });
+  return geometry;
+}
+
+} // namespace lamella

@@ -1,0 +1,210 @@
+#include "vtkMembraneSurface.h"
+
+#include "fields/contour.h"
+#include "fields/field_data.h"
+#include "fields/image.h"
+#include "fields/refine.h"
+#include "fields/report.h"
+#include "fields/spline_geometry.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+vtkStandardNewMacro(vtkMembraneSurface);
+
+namespace
+{
+using lamella::Frame;
+using lamella::Helfrich;
+using lamella::LevelSet;
+using lamella::SplineGeometry;
+
+constexpr int Margin = 4; // spacings around the membrane that refining needs
+
+// Facets have less area than the membrane: of it, ChordDeficit times the squared spacing and the mean
+// of K_M^2, measured on spheres; on thin shapes less.
+constexpr double ChordDeficit = 0.06, DeficitAllowed = 7e-4;
+constexpr int LeastRefinement = 2, MostRefinement = 8;
+
+Frame Refined(const Frame& frame, int factor)
+{
+  return factor == 1
+    ? frame
+    : lamella::refine(lamella::crop(frame, Margin * frame.grid.spacing), factor);
+}
+
+/** What keeps the area of facets close to that of the membrane. */
+int SuitableRefinement(const Frame& frame, const LevelSet& phi)
+{
+  const auto coarse = lamella::contour(frame);
+  const SplineGeometry geometry = lamella::move_onto(phi, *coarse->GetPoints(), false);
+  const double squares =
+    std::inner_product(geometry.KM.begin(), geometry.KM.end(), geometry.KM.begin(), 0.0);
+  const double h = frame.grid.spacing, mean = squares / static_cast<double>(geometry.KM.size());
+  const double wanted = std::ceil(h * std::sqrt(ChordDeficit * mean / DeficitAllowed));
+  return static_cast<int>(std::clamp<double>(wanted, LeastRefinement, MostRefinement));
+}
+
+double* AddArray(vtkPolyData& mesh, const char* name, int components = 1)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  mesh.GetPointData()->AddArray(array);
+  return array->GetPointer(0);
+}
+
+vtkDoubleArray* PsiOf(vtkPolyData& mesh)
+{
+  return vtkDoubleArray::SafeDownCast(mesh.GetPointData()->GetArray("psi"));
+}
+
+void AddPhase(vtkPolyData& mesh)
+{
+  vtkDoubleArray* psi = PsiOf(mesh);
+  if (!psi)
+  {
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> phase;
+  phase->SetName("phase");
+  phase->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n)
+  {
+    phase->SetValue(n, psi->GetValue(n) < 0 ? 0 : 1);
+  }
+  mesh.GetPointData()->AddArray(phase);
+}
+
+void AddEnergyDensity(
+  vtkPolyData& mesh, const SplineGeometry& geometry, const lamella::Elasticity& elasticity)
+{
+  vtkDoubleArray* psi = PsiOf(mesh);
+  double* density = AddArray(mesh, "energy_density");
+  for (std::size_t n = 0; n < geometry.KM.size(); ++n)
+  {
+    const Helfrich& bending =
+      psi ? elasticity.at(psi->GetValue(static_cast<vtkIdType>(n))) : elasticity.membrane;
+    density[n] = bending.density(geometry.KM[n]);
+  }
+}
+
+/** Along the normal, Eq. 80. */
+void AddVelocity(vtkPolyData& mesh, const SplineGeometry& geometry, const Helfrich& bending,
+  const std::array<double, 3>& multipliers)
+{
+  double* velocity = AddArray(mesh, "velocity", 3);
+  const auto& [P, sigma, KMultiplier] = multipliers;
+  for (std::size_t n = 0; n < geometry.KM.size(); ++n)
+  {
+    const double KM = geometry.KM[n], K = geometry.K[n];
+    const double speed =
+      P + sigma * KM + KMultiplier * K - bending.variation(KM, K, geometry.lap_KM[n]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      velocity[3 * n + axis] = speed * geometry.normals[3 * n + axis];
+    }
+  }
+}
+
+void AddNormals(vtkPolyData& mesh, const SplineGeometry& geometry)
+{
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  std::copy(geometry.normals.begin(), geometry.normals.end(), normals->GetPointer(0));
+  mesh.GetPointData()->SetNormals(normals);
+}
+
+/** The membrane as the spline has it; refinement 0: what suits. */
+vtkSmartPointer<vtkPolyData> ExactSurface(
+  const Frame& frame, int refinement, vtkDataObject& about, const Helfrich& otherwise)
+{
+  const auto multipliers = lamella::multipliers_of(about);
+  const bool moves = multipliers && frame.psi.empty();
+  const LevelSet phi = lamella::fitted(frame.grid, frame.phi);
+  const Frame fine = Refined(frame, refinement ? refinement : SuitableRefinement(frame, phi));
+  const auto mesh = lamella::contour(fine);
+  const SplineGeometry geometry = lamella::move_onto(phi, *mesh->GetPoints(), moves);
+  const lamella::Elasticity elasticity = lamella::elasticity_of(about, otherwise);
+  AddNormals(*mesh, geometry);
+  lamella::add_fields(*mesh, fine);
+  std::copy(geometry.KM.begin(), geometry.KM.end(), AddArray(*mesh, "K_M"));
+  std::copy(geometry.K.begin(), geometry.K.end(), AddArray(*mesh, "K"));
+  AddEnergyDensity(*mesh, geometry, elasticity);
+  if (moves)
+  {
+    AddVelocity(*mesh, geometry, elasticity.membrane, *multipliers);
+  }
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> LinearSurface(const Frame& frame, int refinement)
+{
+  const Frame fine = Refined(frame, refinement ? refinement : LeastRefinement);
+  const auto mesh = lamella::contour(fine);
+  lamella::add_normals(*mesh, fine);
+  lamella::add_fields(*mesh, fine);
+  return mesh;
+}
+
+void Move(vtkPoints& points, const lamella::Vec3& by)
+{
+  if (by == lamella::Vec3{})
+  {
+    return;
+  }
+  for (vtkIdType n = 0; n < points.GetNumberOfPoints(); ++n)
+  {
+    lamella::Vec3 p;
+    points.GetPoint(n, p.data());
+    points.SetPoint(n, p[0] + by[0], p[1] + by[1], p[2] + by[2]);
+  }
+}
+}
+
+int vtkMembraneSurface::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+int vtkMembraneSurface::RequestData(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  return lamella::reporting(this,
+    [&]
+    {
+      vtkImageData* image = vtkImageData::GetData(input[0]);
+      const auto [frame, center] = lamella::vesicle_in(*image, this->PhiArray);
+      const auto mesh = this->ComputeCurvatures
+        ? ExactSurface(frame, this->Refinement, *image,
+            { this->BendingModulus, this->SpontaneousCurvature })
+        : LinearSurface(frame, this->Refinement);
+      AddPhase(*mesh);
+      Move(*mesh->GetPoints(), center);
+      vtkPolyData::GetData(output)->ShallowCopy(mesh);
+    });
+}
+
+void vtkMembraneSurface::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PhiArray: " << this->PhiArray << "\n";
+  os << indent << "Refinement: " << this->Refinement << "\n";
+  os << indent << "ComputeCurvatures: " << this->ComputeCurvatures << "\n";
+  os << indent << "BendingModulus: " << this->BendingModulus << "\n";
+  os << indent << "SpontaneousCurvature: " << this->SpontaneousCurvature << "\n";
+}
