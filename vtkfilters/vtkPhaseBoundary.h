@@ -5,8 +5,9 @@
  * Traces {phi = psi = 0} on splines of degree seven through phi and psi: neither need be a
  * distance. Lengths of smooth boundaries are right to 1e-6 or better at 64^3. The splines are
  * periodic: where psi jumps from one side of the image to the other, keep ten nodes between that
- * and the membrane. Boundaries of less than half a spacing across may escape; one that cannot be followed all the way around, as domains are
- * about to merge, to part or to vanish, is left out with a warning that says where.
+ * and the membrane. Boundaries of less than half a spacing across may escape; one that cannot be
+ * followed all the way around, as domains are about to merge, to part or to vanish, is left out with
+ * a warning that says where.
  *
  * N points out of the vesicle, n along the membrane into Lo (psi > 0), t along the line; {n, t, N}
  * is right-handed, so that Ld lies to the left of t as seen from outside. On the unit sphere kn =

@@ -80,4 +80,16 @@ SplineGeometry move_onto(const LevelSet& phi, vtkPoints& points, bool with_lap_K
   return geometry;
 }
 
+std::vector<double> slopes_at(const LevelSet& phi, vtkPoints& points) {
+  const SplineView spline = phi.view();
+  std::vector<double> slopes(points.GetNumberOfPoints());
+  parallel_for(slopes.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    Samples samples;
+    take(points, begin, end, samples);
+    samples.evaluate(spline, false);
+    std::copy_n(samples.grad.begin(), samples.count, slopes.begin() + std::ptrdiff_t(begin));
+  });
+  return slopes;
+}
+
 } // namespace lamella

@@ -21,4 +21,7 @@ struct SplineGeometry {
 /// Leaves lap_KM empty unless it is asked for.
 SplineGeometry move_onto(const LevelSet& phi, vtkPoints& points, bool with_lap_KM);
 
+/// |grad phi| at points.
+std::vector<double> slopes_at(const LevelSet& phi, vtkPoints& points);
+
 } // namespace lamella

@@ -1,0 +1,302 @@
+// Vesicles over time: any time, in any order, interrupted or not.
+#include "bad_images.h"
+#include "fields/field_data.h"
+
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkMembraneSurface.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkTable.h>
+#include <vtkVesicleDynamics.h>
+#include <vtkVesicleSource.h>
+
+#include <cmath>
+#include <functional>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace lamella {
+namespace {
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+using testing::HasSubstr;
+
+constexpr double end = 2e-4;
+
+vtkSmartPointer<vtkImageData> start() {
+  return image_of({.kind = ShapeKind::prolate, .semi_axis = 0.7, .reduced_volume = 0.8}, 32);
+}
+
+/// A run of five stored states.
+vtkSmartPointer<vtkVesicleDynamics> dynamics_of(vtkImageData* image) {
+  auto dynamics = vtkSmartPointer<vtkVesicleDynamics>::New();
+  dynamics->SetInputData(image);
+  dynamics->SetEndTime(end);
+  dynamics->SetOutputFrames(5);
+  return dynamics;
+}
+
+std::vector<double> phi_at(vtkVesicleDynamics* dynamics, double time) {
+  dynamics->UpdateTimeStep(time);
+  const double* phi = values_of(dynamics->GetOutput(), "phi");
+  return {phi, phi + dynamics->GetOutput()->GetNumberOfPoints()};
+}
+
+double time_of(vtkImageData* image) {
+  return image->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP());
+}
+
+double field(vtkVesicleDynamics* dynamics, const char* name) {
+  return field_value(*dynamics->GetOutput(), name).value();
+}
+
+/// Calls a function at every progress of an algorithm.
+class Watch {
+public:
+  Watch(vtkAlgorithm* algorithm, std::function<void()> action)
+      : algorithm_(algorithm), action_(std::move(action)) {
+    command_->SetClientData(&action_);
+    command_->SetCallback([](vtkObject*, unsigned long, void* action, void*) {
+      (*static_cast<std::function<void()>*>(action))();
+    });
+    tag_ = algorithm->AddObserver(vtkCommand::ProgressEvent, command_);
+  }
+  ~Watch() { algorithm_->RemoveObserver(tag_); }
+  Watch(const Watch&) = delete;
+  void operator=(const Watch&) = delete;
+
+private:
+  vtkSmartPointer<vtkAlgorithm> algorithm_;
+  std::function<void()> action_;
+  vtkNew<vtkCallbackCommand> command_;
+  unsigned long tag_;
+};
+
+TEST(VesicleDynamics, OffersTheTimesOfItsStoredStates) {
+  const auto dynamics = dynamics_of(start());
+  dynamics->UpdateInformation();
+  for (int port : {0, 1}) {
+    vtkInformation* info = dynamics->GetOutputInformation(port);
+    ASSERT_EQ(info->Length(Pipeline::TIME_STEPS()), 5);
+    for (int n = 0; n < 5; ++n) EXPECT_DOUBLE_EQ(info->Get(Pipeline::TIME_STEPS())[n], end * n / 4);
+    EXPECT_EQ(info->Get(Pipeline::TIME_RANGE())[1], end);
+  }
+}
+
+TEST(VesicleDynamics, LowersTheEnergyAtFixedVolumeAndArea) {
+  const auto dynamics = dynamics_of(start());
+  dynamics->Update();
+  EXPECT_EQ(time_of(dynamics->GetOutput()), 0);
+  const double energy = field(dynamics, "energy"), A = field(dynamics, "A"),
+               V = field(dynamics, "V");
+  dynamics->UpdateTimeStep(end);
+  EXPECT_EQ(time_of(dynamics->GetOutput()), end);
+  EXPECT_LT(field(dynamics, "energy"), 0.99 * energy);
+  EXPECT_NEAR(field(dynamics, "A") / A, 1, 1e-5);
+  EXPECT_NEAR(field(dynamics, "V") / V, 1, 1e-5);
+  EXPECT_EQ(field(dynamics, "membrane.bending_modulus"), 1);
+}
+
+TEST(VesicleDynamics, GivesTheSameInAnyOrder) {
+  const auto forward = dynamics_of(start()), anyhow = dynamics_of(start());
+  const auto first = phi_at(forward, 0), middle = phi_at(forward, end / 2),
+             last = phi_at(forward, end);
+  EXPECT_EQ(phi_at(anyhow, end), last);
+  phi_at(anyhow, 0.3 * end);
+  EXPECT_EQ(phi_at(anyhow, end / 2), middle);
+  EXPECT_EQ(phi_at(anyhow, 0), first);
+  EXPECT_EQ(phi_at(anyhow, -1), first);
+  EXPECT_EQ(phi_at(anyhow, 10 * end), last);
+}
+
+TEST(VesicleDynamics, ReachesTimesBetween) {
+  const auto dynamics = dynamics_of(start()), finer = dynamics_of(start());
+  finer->SetOutputFrames(9);
+  const double time = 3 * end / 8;
+  const auto before = phi_at(dynamics, end / 4), phi = phi_at(dynamics, time);
+  EXPECT_DOUBLE_EQ(time_of(dynamics->GetOutput()), time);
+  EXPECT_NEAR(field(dynamics, "t"), time, 1e-18);
+  const auto expected = phi_at(finer, time);
+  double moved = 0, error = 0;
+  for (std::size_t n = 0; n < phi.size(); ++n) {
+    if (std::abs(phi[n]) > 0.1) continue; // the membrane is elsewhere
+    moved = std::max(moved, std::abs(phi[n] - before[n]));
+    error = std::max(error, std::abs(phi[n] - expected[n]));
+  }
+  EXPECT_LT(error, 0.1 * moved);
+  const double energy = field(finer, "energy");
+  EXPECT_NEAR(field(dynamics, "energy") / energy, 1, 1e-3);
+}
+
+TEST(VesicleDynamics, LeadsAlongRampsAlsoBetween) {
+  const auto at = [](double time, int frames) {
+    const auto dynamics = dynamics_of(start());
+    dynamics->SetOutputFrames(frames);
+    dynamics->SetVolumeConstraint("ramped");
+    dynamics->SetVolumeRate(100);
+    dynamics->AddVolumeTarget(0.81, 0);
+    dynamics->AddVolumeTarget(0.79, end / 2);
+    EXPECT_EQ(dynamics->GetNumberOfVolumeTargets(), 2);
+    dynamics->UpdateTimeStep(time);
+    return field(dynamics, "v");
+  };
+  for (const double time : {0.1 * end, 0.6 * end})
+    EXPECT_NEAR(at(time, 2), at(time, 11), 1e-4) << time;
+  EXPECT_NEAR(at(0.4 * end, 5), 0.8 + 100 * 0.4 * end, 1e-4);
+}
+
+TEST(VesicleDynamics, TellsTheHistory) {
+  const auto dynamics = dynamics_of(start());
+  dynamics->UpdateTimeStep(end);
+  vtkTable* history = vtkTable::SafeDownCast(dynamics->GetOutputDataObject(1));
+  ASSERT_GT(history->GetNumberOfRows(), 5);
+  const auto at = [&](vtkIdType row, const char* column) {
+    return history->GetValueByName(row, column).ToDouble();
+  };
+  for (vtkIdType row = 1; row < history->GetNumberOfRows(); ++row) {
+    EXPECT_GT(at(row, "t"), at(row - 1, "t"));
+    EXPECT_LE(at(row, "energy"), at(row - 1, "energy"));
+  }
+  EXPECT_EQ(at(history->GetNumberOfRows() - 1, "t"), end);
+  EXPECT_EQ(at(history->GetNumberOfRows() - 1, "energy"), field(dynamics, "energy"));
+  dynamics->UpdateTimeStep(0);
+  EXPECT_EQ(history->GetNumberOfRows(), 1);
+}
+
+TEST(VesicleDynamics, ComputesAnewOnlyWhatChanges) {
+  const auto dynamics = dynamics_of(start());
+  dynamics->UpdateTimeStep(end);
+  int steps = 0;
+  const Watch watch(dynamics, [&] { ++steps; });
+  const auto steps_of_update = [&] {
+    steps = 0;
+    dynamics->UpdateTimeStep(end);
+    return steps;
+  };
+  const int idle = (dynamics->Modified(), steps_of_update()); // VTK's own progress, 0 and 1
+  dynamics->SetLineTension(3);                                // of two phases
+  EXPECT_EQ(steps_of_update(), idle);
+  dynamics->SetBendingModulus(2);
+  EXPECT_GT(steps_of_update(), idle + 5);
+  EXPECT_EQ(field(dynamics, "membrane.bending_modulus"), 2);
+  dynamics->GetInput()->Modified();
+  EXPECT_GT(steps_of_update(), idle + 5);
+}
+
+TEST(VesicleDynamics, GoesOnAfterAnAbort) {
+  const auto whole = dynamics_of(start()), dynamics = dynamics_of(start());
+  {
+    int steps = 0;
+    const Watch watch(dynamics, [&] {
+      if (++steps == 4) dynamics->AbortExecuteOn();
+    });
+    dynamics->UpdateTimeStep(end);
+  }
+  EXPECT_GT(dynamics->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_LT(time_of(dynamics->GetOutput()), end);
+  dynamics->AbortExecuteOff();
+  EXPECT_EQ(phi_at(dynamics, end), phi_at(whole, end));
+}
+
+TEST(VesicleDynamics, KeepsTheLastGoodStateOfARunThatFails) {
+  const auto dynamics = dynamics_of(start());
+  dynamics->SetVolumeConstraint("ramped");
+  dynamics->AddVolumeTarget(0.2, 0);
+  dynamics->SetVolumeRate(200);
+  dynamics->SetContactTopologyChanges(false);
+  dynamics->SetEndTime(0.05);
+  const Reports reports(dynamics);
+  dynamics->UpdateTimeStep(0.05);
+  EXPECT_THAT(reports.text(), HasSubstr("the run stopped at t = "));
+  const double time = time_of(dynamics->GetOutput());
+  EXPECT_GT(time, 0);
+  EXPECT_LT(time, 0.05);
+  EXPECT_EQ(field(dynamics, "t"), time);
+  EXPECT_EQ(phi_at(dynamics, time / 2).size(), std::size_t(32 * 32 * 32));
+  EXPECT_NEAR(time_of(dynamics->GetOutput()), time / 2, 1e-15) << "earlier times are there";
+}
+
+TEST(VesicleDynamics, EndsWhereItsRulesSay) {
+  const auto dynamics = dynamics_of(image_of(sphere(0.5), 32));
+  dynamics->SetEndTime(1);
+  dynamics->SetStopEnergyRate(1);
+  dynamics->UpdateTimeStep(1);
+  EXPECT_LT(time_of(dynamics->GetOutput()), 0.9);
+}
+
+TEST(VesicleDynamics, TakesLevelSetsThatAreNoDistances) {
+  const auto image = start(), other = start();
+  double* phi = values_of(other, "phi");
+  for (vtkIdType n = 0; n < other->GetNumberOfPoints(); ++n)
+    phi[n] = 30 * phi[n] * (1 + 0.5 * phi[n]);
+  const auto usual = dynamics_of(image), dynamics = dynamics_of(other);
+  EXPECT_EQ(error_of(dynamics), "");
+  usual->UpdateTimeStep(end);
+  dynamics->UpdateTimeStep(end);
+  for (const char* name : {"energy", "A", "V"})
+    EXPECT_NEAR(field(dynamics, name) / field(usual, name), 1, 2e-3) << name;
+}
+
+TEST(VesicleDynamics, LeavesTheBoxWhereItIs) {
+  const auto image = start();
+  image->SetOrigin(image->GetOrigin()[0] + 5, image->GetOrigin()[1], image->GetOrigin()[2] - 2);
+  const auto dynamics = dynamics_of(image);
+  dynamics->UpdateTimeStep(end);
+  for (int a = 0; a < 3; ++a)
+    EXPECT_NEAR(dynamics->GetOutput()->GetOrigin()[a], image->GetOrigin()[a], 1e-12);
+}
+
+TEST(VesicleDynamics, PassesTimesDownAPipeline) {
+  vtkNew<vtkVesicleSource> source;
+  source->SetNodes(32, 32, 32);
+  source->SetShapeReducedVolume(0.8);
+  vtkNew<vtkVesicleDynamics> dynamics;
+  dynamics->SetInputConnection(source->GetOutputPort());
+  dynamics->SetEndTime(end);
+  vtkNew<vtkMembraneSurface> surface;
+  surface->SetInputConnection(dynamics->GetOutputPort());
+  surface->UpdateTimeStep(end);
+  EXPECT_EQ(dynamics->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), end);
+  EXPECT_TRUE(surface->GetOutput()->GetPointData()->HasArray("velocity"));
+  EXPECT_EQ(surface->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), end);
+}
+
+TEST(VesicleDynamics, SaysWhatIsWrongWithAnImage) {
+  for (const BadImage& bad : bad_images()) {
+    const auto dynamics = dynamics_of(bad.image);
+    EXPECT_THAT(error_of(dynamics), HasSubstr(bad.complaint));
+    EXPECT_EQ(dynamics->GetOutput()->GetNumberOfPoints(), 0);
+  }
+  EXPECT_THAT(error_of(dynamics_of(image_of(frame_of(sphere(0.3), Grid{{36, 32, 32}, 0.05})))),
+              HasSubstr("36 x 32 x 32 nodes; along each axis the solver takes an integer multiple "
+                        "of 8 from 16 to 512"));
+}
+
+TEST(VesicleDynamics, SaysWhatIsWrongWithParameters) {
+  const auto dynamics = dynamics_of(start());
+  dynamics->SetEndTime(-1);
+  EXPECT_THAT(error_of(dynamics), HasSubstr("[run] end_time"));
+  dynamics->SetEndTime(end);
+  dynamics->SetOutputFrames(0);
+  EXPECT_THAT(error_of(dynamics), HasSubstr("[output] frames"));
+  dynamics->SetOutputFrames(5);
+  dynamics->SetBendingModulus(NAN);
+  EXPECT_THAT(error_of(dynamics), HasSubstr("[membrane] bending_modulus"));
+  dynamics->SetBendingModulus(1);
+  {
+    const Reports reports(dynamics);
+    dynamics->SetVolumeConstraint("fixd");
+    EXPECT_THAT(reports.text(), HasSubstr("did you mean \"fixed\"?"));
+  }
+  EXPECT_EQ(error_of(dynamics), "");
+}
+
+TEST(VesicleDynamics, PrintsItsParameters) {
+  std::ostringstream text;
+  vtkNew<vtkVesicleDynamics>()->Print(text);
+  EXPECT_THAT(text.str(), HasSubstr("[run] end_time = 0.0016"));
+}
+
+} // namespace
+} // namespace lamella

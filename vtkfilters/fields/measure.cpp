@@ -1,0 +1,132 @@
+#include "fields/measure.h"
+
+#include "dynamics/surface_integrals.h"
+#include "fields/spline_geometry.h"
+#include "geometry/phase_boundary.h"
+#include "levelset/critical_points.h"
+#include "levelset/topology.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace lamella {
+namespace {
+
+// Spacings. The solver's own band, and one in which necks are looked for.
+constexpr double band_half_width = 4.2, neck_band_half_width = 12;
+// Of a neck: along it phi falls off to both sides, however little in proportion to across it.
+constexpr double least_narrowing = 0.01;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct Membrane {
+  LevelSet phi;
+  NarrowBand band;
+  SurfaceGeometry surface;
+
+  explicit Membrane(const Frame& frame)
+      : phi(fitted(frame.grid, frame.phi)), band(frame.grid, band_half_width) {
+    band.update(phi);
+    surface.sample(phi, band);
+    surface.jets(phi, band);
+  }
+};
+
+std::vector<Eigen::Vector3d> places(const ConstPoints& p, std::size_t count) {
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t i = 0; i < count; ++i) out.emplace_back(p.x[i], p.y[i], p.z[i]);
+  return out;
+}
+
+/// Smallest radius of the inside at a point where it widens in both directions along one axis.
+double thinnest_neck(const LevelSet& phi) {
+  NarrowBand band(phi.grid(), neck_band_half_width);
+  band.update(phi);
+  std::vector<double> slopes;
+  for (const Taylor& t : taylor(phi, places(std::as_const(band).points(), band.size())))
+    slopes.push_back(t.gradient.norm());
+  const double reach = neck_band_half_width * phi.grid().spacing;
+  const auto points = critical_points(phi, band, slopes, reach, true); // the thinnest first
+  const auto is_neck = [](const CriticalPoint& point) {
+    const auto& [along, across, other] = point.stiffness;
+    return along < -least_narrowing * other && across > 0;
+  };
+  const auto neck = std::ranges::find_if(points, is_neck);
+  return neck == points.end() ? none : neck->radius;
+}
+
+std::vector<double> variation(const SurfaceGeometry& surface, const Helfrich& bending) {
+  std::vector<double> F(surface.size());
+  for (std::size_t i = 0; i < F.size(); ++i)
+    F[i] = bending.variation(surface.KM()[i], surface.K()[i], surface.lap_KM()[i]);
+  return F;
+}
+
+/// P and sigma for which volume and area are at rest: int v dA = int K_M v dA = 0.
+void set_multipliers(ShapeMeasures& m, const SurfaceIntegrals& integrals) {
+  const Eigen::Vector2d solution =
+      integrals.gram.topLeftCorner<2, 2>().fullPivLu().solve(integrals.variation.head<2>());
+  m.P = solution[0];
+  m.sigma = solution[1];
+}
+
+/// The part of a sample in Lo, from psi around it.
+double share_of_Lo(const Taylor& psi, double spacing) {
+  return std::clamp(0.5 + 0.5 * psi.value / (spacing * psi.gradient.norm() + 1e-300), 0.0, 1.0);
+}
+
+ShapeMeasures::Phases measure_phases(const Frame& frame, const Membrane& membrane,
+                                     const Elasticity& elasticity) {
+  const LevelSet psi = fitted(frame.grid, frame.psi);
+  const SurfaceGeometry& surface = membrane.surface;
+  const std::vector<Taylor> around = taylor(psi, places(surface.points(), surface.size()));
+  ShapeMeasures::Phases m;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const double Lo = share_of_Lo(around[i], frame.grid.spacing), w = surface.weight()[i],
+                 KM = surface.KM()[i];
+    m.area_Ld += w * (1 - Lo);
+    m.area_Lo += w * Lo;
+    m.bending_energy_Ld += w * (1 - Lo) * elasticity.ld.density(KM);
+    m.bending_energy_Lo += w * Lo * elasticity.lo.density(KM);
+  }
+  PhaseBoundary boundary;
+  boundary.trace(membrane.phi, psi, membrane.band);
+  m.line_length = boundary.length();
+  return m;
+}
+
+} // namespace
+
+ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity) {
+  const Membrane membrane(frame);
+  const SurfaceGeometry& surface = membrane.surface;
+  const SurfaceIntegrals integrals =
+      integrate(surface, elasticity.membrane, variation(surface, elasticity.membrane));
+  const double pi = std::numbers::pi, radius = std::sqrt(integrals.area() / (4 * pi));
+  const Topology topology = topology_of(frame.grid, frame.phi);
+  ShapeMeasures m;
+  m.area = integrals.area();
+  m.volume = integrals.volume;
+  m.reduced_volume = m.volume / (4. / 3 * pi * radius * radius * radius);
+  m.area_difference = -integrals.int_KM() / (8 * pi * radius);
+  m.int_KM2 = integrals.int_KM2();
+  m.components = topology.components;
+  m.genus = topology.genus;
+  m.neck_radius = thinnest_neck(membrane.phi);
+  if (frame.psi.empty()) {
+    m.bending_energy = integrals.energy;
+    set_multipliers(m, integrals);
+    return m;
+  }
+  m.phases = measure_phases(frame, membrane, elasticity);
+  m.bending_energy = m.phases->bending_energy_Ld + m.phases->bending_energy_Lo;
+  m.P = m.sigma = none;
+  return m;
+}
+
+} // namespace lamella

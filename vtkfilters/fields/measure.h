@@ -1,0 +1,29 @@
+#pragma once
+#include "fields/field_data.h"
+#include "store/frame.h"
+
+#include <optional>
+
+namespace lamella {
+
+/// What the geometry of a membrane and its bending energy tell. Of two phases, those parts that the
+/// boundary between them cuts count in proportion; sums over a phase are right to second order.
+struct ShapeMeasures {
+  double area = 0, volume = 0;
+  double reduced_volume = 0, area_difference = 0;
+  double int_KM2 = 0;
+  double bending_energy = 0;
+  double P = 0, sigma = 0; ///< that hold volume and area, of one phase; NaN with two
+  int components = 0, genus = 0;
+  double neck_radius = 0; ///< of the thinnest neck; NaN where there is none
+  struct Phases {
+    double area_Ld = 0, area_Lo = 0;
+    double bending_energy_Ld = 0, bending_energy_Lo = 0;
+    double line_length = 0;
+  };
+  std::optional<Phases> phases;
+};
+
+ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity);
+
+} // namespace lamella

@@ -1,0 +1,66 @@
+#pragma once
+#include "scene/scene.h"
+
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lamella {
+
+/// The value by name of a parameter that has a choice, such as kind in [shape].
+const char* choice_of(const Scene& scene, std::string_view section, std::string_view key);
+/// Throws InputError for a name that there is not, with those there are.
+void set_choice(Scene& scene, std::string_view section, std::string_view key,
+                std::string_view value);
+
+/// The parameters of some sections that count, a line each.
+void print_sections(std::ostream& out, const std::string& indent, const Scene& scene,
+                    std::span<const std::string_view> sections);
+
+/// The next value of a ramp, and when to set out for it; or none any more.
+void add_target(Ramp& ramp, double target, double start_time);
+void remove_targets(Ramp& ramp);
+
+} // namespace lamella
+
+// Definitions of VTK properties that are members of this->Scene.
+
+#define lamellaProperty(cls, name, type, member)                                                   \
+  void cls::Set##name(type value) {                                                                \
+    if (this->Scene->member == value) return;                                                      \
+    this->Scene->member = value;                                                                   \
+    this->Modified();                                                                              \
+  }                                                                                                \
+  type cls::Get##name() { return this->Scene->member; }
+
+#define lamellaVectorProperty(cls, name, type, member)                                             \
+  void cls::Set##name(type x, type y, type z) {                                                    \
+    const std::array<type, 3> value{x, y, z};                                                      \
+    if (this->Scene->member == value) return;                                                      \
+    this->Scene->member = value;                                                                   \
+    this->Modified();                                                                              \
+  }                                                                                                \
+  type* cls::Get##name() { return this->Scene->member.data(); }
+
+#define lamellaChoiceProperty(cls, name, section, key)                                             \
+  void cls::Set##name(const char* value) {                                                         \
+    lamella::reporting(this, [&] {                                                                 \
+      lamella::set_choice(*this->Scene, section, key, value ? value : "");                         \
+      this->Modified();                                                                            \
+    });                                                                                            \
+  }                                                                                                \
+  const char* cls::Get##name() { return lamella::choice_of(*this->Scene, section, key); }
+
+#define lamellaRampProperty(cls, name, member)                                                     \
+  void cls::Add##name##Target(double target, double start_time) {                                  \
+    lamella::add_target(this->Scene->member, target, start_time);                                  \
+    this->Modified();                                                                              \
+  }                                                                                                \
+  void cls::RemoveAll##name##Targets() {                                                           \
+    lamella::remove_targets(this->Scene->member);                                                  \
+    this->Modified();                                                                              \
+  }                                                                                                \
+  int cls::GetNumberOf##name##Targets() {                                                          \
+    return static_cast<int>(this->Scene->member.targets.size());                                   \
+  }

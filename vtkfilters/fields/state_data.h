@@ -1,0 +1,21 @@
+#pragma once
+#include "dynamics/measures.h"
+#include "grid/grid.h"
+#include "scene/scene.h"
+#include "store/frame.h"
+
+#include <vtkImageData.h>
+#include <vtkTable.h>
+
+#include <span>
+
+namespace lamella {
+
+/// The image of a frame, and its field data: the measures, and the parameters of the membrane.
+void fill_state(vtkImageData& image, const Frame& frame, const Measures& measures,
+                const Scene& scene, const Vec3& center = {});
+
+/// Measures until a time (included), one row each, in the columns of history.csv.
+void fill_history(vtkTable& table, std::span<const Measures> history, double until);
+
+} // namespace lamella

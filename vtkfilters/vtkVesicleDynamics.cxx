@@ -1,0 +1,176 @@
+#include "vtkVesicleDynamics.h"
+
+#include "fields/report.h"
+#include "fields/scene_properties.h"
+#include "fields/start_image.h"
+#include "fields/state_data.h"
+#include "fields/stored_frame.h"
+#include "fields/time_request.h"
+#include "fields/trajectory.h"
+#include "scene/scene_toml.h"
+
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkTable.h>
+
+#include <array>
+#include <sstream>
+
+vtkStandardNewMacro(vtkVesicleDynamics);
+
+namespace
+{
+constexpr std::array<std::string_view, 13> Sections = { "membrane", "domains", "ld", "lo", "line",
+  "stretch", "volume", "area_difference", "contact", "run", "stop", "numerics", "output" };
+
+lamella::Trajectory Begin(lamella::Scene scene, const lamella::Frame& start)
+{
+  lamella::Frame frame = start;
+  frame.grid = scene.grid(); // to the last bit
+  const lamella::StoredFrame file(frame);
+  scene.shape.file = file.path();
+  lamella::validate(scene);
+  return lamella::Trajectory(scene);
+}
+}
+
+/** A run, and what it was made from. */
+class vtkVesicleDynamics::Run
+{
+public:
+  Run(const lamella::Scene& scene, const lamella::ImageVesicle& vesicle, vtkMTimeType inputTime)
+    : InputTime(inputTime)
+    , Parameters(lamella::to_toml(scene))
+    , Scene(scene)
+    , Center(vesicle.center)
+    , Trajectory(Begin(this->Scene, lamella::start_frame(vesicle)))
+  {
+  }
+
+  vtkMTimeType InputTime;
+  std::string Parameters;
+  lamella::Scene Scene;
+  lamella::Vec3 Center;
+  lamella::Trajectory Trajectory;
+};
+
+lamellaProperty(vtkVesicleDynamics, BendingModulus, double, membrane.bending_modulus);
+lamellaProperty(vtkVesicleDynamics, SpontaneousCurvature, double, membrane.spontaneous_curvature);
+lamellaProperty(vtkVesicleDynamics, DomainsCurvatureStartTime, double, curvature_start_time);
+lamellaProperty(vtkVesicleDynamics, LdBendingModulus, double, ld.bending_modulus);
+lamellaProperty(vtkVesicleDynamics, LdSpontaneousCurvature, double, ld.spontaneous_curvature);
+lamellaProperty(vtkVesicleDynamics, LdGaussianModulus, double, ld.gaussian_modulus);
+lamellaProperty(vtkVesicleDynamics, LoBendingModulus, double, lo.bending_modulus);
+lamellaProperty(vtkVesicleDynamics, LoSpontaneousCurvature, double, lo.spontaneous_curvature);
+lamellaProperty(vtkVesicleDynamics, LoGaussianModulus, double, lo.gaussian_modulus);
+lamellaProperty(vtkVesicleDynamics, LineTension, double, line.tension);
+lamellaProperty(vtkVesicleDynamics, LineGeodesicModulus, double, line.geodesic_modulus);
+lamellaProperty(vtkVesicleDynamics, LineTorsionModulus, double, line.torsion_modulus);
+lamellaProperty(vtkVesicleDynamics, LineNormalModulus, double, line.normal_modulus);
+lamellaProperty(vtkVesicleDynamics, StretchModulus, double, stretch.modulus);
+lamellaChoiceProperty(vtkVesicleDynamics, VolumeConstraint, "volume", "constraint");
+lamellaRampProperty(vtkVesicleDynamics, Volume, volume.ramp);
+lamellaProperty(vtkVesicleDynamics, VolumeRate, double, volume.ramp.rate);
+lamellaProperty(vtkVesicleDynamics, VolumePressure, double, volume.pressure);
+lamellaChoiceProperty(vtkVesicleDynamics, AreaDifferenceConstraint, "area_difference", "constraint");
+lamellaRampProperty(vtkVesicleDynamics, AreaDifference, area_difference.ramp);
+lamellaProperty(vtkVesicleDynamics, AreaDifferenceRate, double, area_difference.ramp.rate);
+lamellaProperty(vtkVesicleDynamics, AreaDifferenceMultiplier, double, area_difference.multiplier);
+lamellaProperty(vtkVesicleDynamics, ContactTopologyChanges, bool, contact.topology_changes);
+lamellaProperty(vtkVesicleDynamics, ContactDisjoiningPressure, double, contact.disjoining_pressure);
+lamellaProperty(vtkVesicleDynamics, ContactDisjoiningRange, double, contact.disjoining_range);
+lamellaProperty(vtkVesicleDynamics, ContactRuptureThickness, double, contact.rupture_thickness);
+lamellaProperty(vtkVesicleDynamics, EndTime, double, end_time);
+lamellaProperty(vtkVesicleDynamics, StopEnergyRate, double, stop.energy_rate);
+lamellaProperty(vtkVesicleDynamics, StopResidualForce, double, stop.residual_force);
+lamellaProperty(vtkVesicleDynamics, StopTopologyChanges, int, stop.topology_changes);
+lamellaProperty(vtkVesicleDynamics, StopWallTime, double, stop.wall_time);
+lamellaProperty(vtkVesicleDynamics, Tolerance, double, numerics.tolerance);
+lamellaProperty(vtkVesicleDynamics, MaxTimeStep, double, numerics.max_time_step);
+lamellaProperty(vtkVesicleDynamics, OutputFrames, int, output.frames);
+
+vtkVesicleDynamics::vtkVesicleDynamics()
+  : Scene(std::make_unique<lamella::Scene>())
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkVesicleDynamics::~vtkVesicleDynamics() = default;
+
+int vtkVesicleDynamics::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkImageData" : "vtkTable");
+  return 1;
+}
+
+int vtkVesicleDynamics::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  lamella::offer_times(*output, lamella::stored_times(*this->Scene));
+  return 1;
+}
+
+/** The whole of the input, at its first time. */
+int vtkVesicleDynamics::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* info = input[0]->GetInformationObject(0);
+  if (info->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    info->Set(Pipeline::UPDATE_EXTENT(), info->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
+  if (info->Has(Pipeline::TIME_STEPS()))
+  {
+    info->Set(Pipeline::UPDATE_TIME_STEP(), info->Get(Pipeline::TIME_STEPS())[0]);
+  }
+  else
+  {
+    info->Remove(Pipeline::UPDATE_TIME_STEP());
+  }
+  return 1;
+}
+
+void vtkVesicleDynamics::BeginRunIfNeeded(vtkImageData& image)
+{
+  const auto vesicle = lamella::vesicle_in(image, this->PhiArray);
+  const lamella::Scene scene = lamella::with_start(*this->Scene, vesicle.frame);
+  const vtkMTimeType time = image.GetMTime();
+  if (this->Current && this->Current->InputTime == time &&
+    this->Current->Parameters == lamella::to_toml(scene))
+  {
+    return;
+  }
+  this->Current.reset();
+  this->Current = std::make_unique<Run>(scene, vesicle, time);
+}
+
+int vtkVesicleDynamics::RequestData(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  return lamella::reporting(this,
+    [&]
+    {
+      this->BeginRunIfNeeded(*vtkImageData::GetData(input[0]));
+      lamella::Trajectory& trajectory = this->Current->Trajectory;
+      const double time = lamella::requested_time(*request, *output);
+      const lamella::State state = trajectory.at(time, lamella::until_aborted(this, time));
+      lamella::fill_state(*vtkImageData::GetData(output, 0), state.frame, state.measures,
+        this->Current->Scene, this->Current->Center);
+      lamella::fill_history(
+        *vtkTable::GetData(output, 1), trajectory.history(), state.frame.time);
+      lamella::report_failure(this, trajectory, time);
+    });
+}
+
+void vtkVesicleDynamics::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PhiArray: " << this->PhiArray << "\n";
+  std::ostringstream margin;
+  margin << indent;
+  lamella::print_sections(os, margin.str(), *this->Scene, Sections);
+}

@@ -1,0 +1,340 @@
+/**
+ * @class vtkVesicleDynamics
+ * @brief a vesicle over time, from the level set that it starts as
+ *
+ * Relaxes a membrane under its bending energy, with volume and area held or led where they are to go,
+ * as `lamella run` does (docs/numerics.md). The output is a time-varying image: its time steps are
+ * those at which a run stores its state, OutputFrames of them from 0 to EndTime, and any time between
+ * can be asked for. Without a time the output is that of time 0.
+ *
+ * States are computed when they are asked for, running forward, and kept in memory; those at the time
+ * steps are the same in whatever order they are asked for. A time between two steps is reached by
+ * going on from the one before. Properties have the names, units and ranges of the scene format
+ * (docs/scene-format.md); those that have no effect on the input at hand are ignored. What changes
+ * the result starts the run anew, and nothing else does.
+ *
+ * Progress is that towards the time asked for. Aborted, or where the run cannot go on, which is an
+ * error, the output is the last good state; its time tells. After AbortExecuteOff() an aborted run
+ * goes on.
+ *
+ * Input: vtkImageData, multiples of 8 from 16 to 512 nodes along each axis, equally spaced along x, y,
+ * z, in a periodic box. Only its first time step is used. Point data of one component each:
+ * - phi (another name: SetPhiArray; an image's only array is taken whatever its name), negative
+ *   inside, positive at all sides of the box. It need not be a distance, but should be smooth.
+ * - psi, optional: phases, negative in Ld, positive in Lo
+ * - c, optional: local stretch, where StretchModulus is not 0
+ *
+ * Output 0: vtkImageData. Point data:
+ * | array | type, components | meaning |
+ * |-------|------------------|---------|
+ * | phi   | double, 1        | level set, negative inside; the scalars |
+ * | psi   | double, 1        | with phases |
+ * | c     | double, 1        | with local stretch |
+ *
+ * The origin moves where the box followed the vesicle. Field data, one number each: the measures of
+ * the state, named as the columns of output 1, and `membrane.bending_modulus`,
+ * `membrane.spontaneous_curvature` (with phases those of `ld.` and `lo.`), for the filters to come.
+ *
+ * Output 1: vtkTable, the history until the time of output 0: a row for the start and every step of
+ * the run, with the columns of history.csv (docs/command-line.md), all of them double. Steps beyond
+ * the last time step, towards a time between two, have no rows.
+ *
+ * T. Zhang, C. W. Wolgemuth, J. Comput. Phys. 450 (2022) 110815.
+ *
+ * @sa vtkVesicleSource vtkMembraneSurface vtkMembraneMeasures
+ */
+#ifndef vtkVesicleDynamics_h
+#define vtkVesicleDynamics_h
+
+#include "vtkLamellaFiltersModule.h" // for the export macro
+
+#include <vtkImageAlgorithm.h>
+
+#include <memory>
+#include <string>
+
+namespace lamella
+{
+struct Scene;
+}
+
+class VTKLAMELLAFILTERS_EXPORT vtkVesicleDynamics : public vtkImageAlgorithm
+{
+public:
+  static vtkVesicleDynamics* New();
+  vtkTypeMacro(vtkVesicleDynamics, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Name of the level set's array. Default "phi". */
+  vtkSetStdStringFromCharMacro(PhiArray);
+  vtkGetCharFromStdStringMacro(PhiArray);
+  ///@}
+
+  ///@{
+  /** [membrane] bending_modulus: bending modulus of the Helfrich energy. A number from 1e-06 to
+   * 1e+06; energy. Default 1. */
+  void SetBendingModulus(double value);
+  double GetBendingModulus();
+  ///@}
+
+  ///@{
+  /** [membrane] spontaneous_curvature: preferred sum of the principal curvatures, which is -2 on
+   * the unit sphere. A number from -1e+06 to 1e+06; 1/length. Default 0. */
+  void SetSpontaneousCurvature(double value);
+  double GetSpontaneousCurvature();
+  ///@}
+
+  ///@{
+  /** [domains] curvature_start_time: cap, caps, frame: until then the spontaneous curvatures of
+   * both phases are 0. A number from 0 to 1e+30; time. Default 0. */
+  void SetDomainsCurvatureStartTime(double value);
+  double GetDomainsCurvatureStartTime();
+  ///@}
+
+  ///@{
+  /** [ld] bending_modulus: bending modulus kappa of the Ld phase. A number from 1e-06 to 1e+06;
+   * energy. Default 1. */
+  void SetLdBendingModulus(double value);
+  double GetLdBendingModulus();
+  ///@}
+
+  ///@{
+  /** [ld] spontaneous_curvature: its spontaneous curvature C: preferred sum of the principal
+   * curvatures. A number from -1e+06 to 1e+06; 1/length. Default 0. */
+  void SetLdSpontaneousCurvature(double value);
+  double GetLdSpontaneousCurvature();
+  ///@}
+
+  ///@{
+  /** [ld] gaussian_modulus: its Gaussian modulus kappa_G; only the difference between the phases
+   * has an effect. A number from -1e+06 to 1e+06; energy. Default 0. */
+  void SetLdGaussianModulus(double value);
+  double GetLdGaussianModulus();
+  ///@}
+
+  ///@{
+  /** [lo] bending_modulus: bending modulus kappa of the Lo phase. A number from 1e-06 to 1e+06;
+   * energy. Default 1. */
+  void SetLoBendingModulus(double value);
+  double GetLoBendingModulus();
+  ///@}
+
+  ///@{
+  /** [lo] spontaneous_curvature: its spontaneous curvature C: preferred sum of the principal
+   * curvatures. A number from -1e+06 to 1e+06; 1/length. Default 0. */
+  void SetLoSpontaneousCurvature(double value);
+  double GetLoSpontaneousCurvature();
+  ///@}
+
+  ///@{
+  /** [lo] gaussian_modulus: its Gaussian modulus kappa_G; only the difference between the phases
+   * has an effect. A number from -1e+06 to 1e+06; energy. Default 0. */
+  void SetLoGaussianModulus(double value);
+  double GetLoGaussianModulus();
+  ///@}
+
+  ///@{
+  /** [line] tension: line tension kappa_l: energy of the phase boundary per length. A number from 0
+   * to 1e+06; energy/length. Default 0. */
+  void SetLineTension(double value);
+  double GetLineTension();
+  ///@}
+
+  ///@{
+  /** [line] geodesic_modulus: kappa_g: energy per length and geodesic curvature. A number from
+   * -1e+06 to 1e+06; energy. Default 0. */
+  void SetLineGeodesicModulus(double value);
+  double GetLineGeodesicModulus();
+  ///@}
+
+  ///@{
+  /** [line] torsion_modulus: kappa_tau: energy per length and geodesic torsion. A number from
+   * -1e+06 to 1e+06; energy. Default 0. */
+  void SetLineTorsionModulus(double value);
+  double GetLineTorsionModulus();
+  ///@}
+
+  ///@{
+  /** [line] normal_modulus: kappa_n: energy per length and normal curvature. A number from -1e+06
+   * to 1e+06; energy. Default 0. */
+  void SetLineNormalModulus(double value);
+  double GetLineNormalModulus();
+  ///@}
+
+  ///@{
+  /** [stretch] modulus: modulus mu that resists local stretch; 0: the membrane flows freely within
+   * each phase. A number from 0 to 1e+06; energy/length^2. Default 0. */
+  void SetStretchModulus(double value);
+  double GetStretchModulus();
+  ///@}
+
+  ///@{
+  /** [volume] constraint: fixed: as it is at the start; ramped: led to targets; free: under a
+   * pressure. "fixed", "ramped", "free". Default "fixed". */
+  void SetVolumeConstraint(const char* value);
+  const char* GetVolumeConstraint();
+  ///@}
+
+  ///@{
+  /** [volume] targets: ramped: reduced volumes to reach, one after the other; when to set out for
+   * each: start_times, ascending. A number above 0 and up to 1. Default none. */
+  void AddVolumeTarget(double target, double start_time);
+  void RemoveAllVolumeTargets();
+  int GetNumberOfVolumeTargets();
+  ///@}
+
+  ///@{
+  /** [volume] rate: ramped: change of the reduced volume per unit of time. A number above 0 and up
+   * to 1e+06; 1/time. Default 5. */
+  void SetVolumeRate(double value);
+  double GetVolumeRate();
+  ///@}
+
+  ///@{
+  /** [volume] pressure: free: pressure inside less that outside. A number from -1e+06 to 1e+06;
+   * energy/length^3. Default 0. */
+  void SetVolumePressure(double value);
+  double GetVolumePressure();
+  ///@}
+
+  ///@{
+  /** [area_difference] constraint: fixed: as it is at the start; ramped: led to targets; free:
+   * under a multiplier. "fixed", "ramped", "free". Default "free". */
+  void SetAreaDifferenceConstraint(const char* value);
+  const char* GetAreaDifferenceConstraint();
+  ///@}
+
+  ///@{
+  /** [area_difference] targets: ramped: reduced area differences to reach, one after the other; 1
+   * for a sphere; when to set out for each: start_times, ascending. A number above 0 and up to
+   * 100. Default none. */
+  void AddAreaDifferenceTarget(double target, double start_time);
+  void RemoveAllAreaDifferenceTargets();
+  int GetNumberOfAreaDifferenceTargets();
+  ///@}
+
+  ///@{
+  /** [area_difference] rate: ramped: change of the reduced area difference per unit of time. A
+   * number above 0 and up to 1e+06; 1/time. Default 5. */
+  void SetAreaDifferenceRate(double value);
+  double GetAreaDifferenceRate();
+  ///@}
+
+  ///@{
+  /** [area_difference] multiplier: free: coefficient of the Gaussian curvature in the outward
+   * normal velocity. A number from -1e+06 to 1e+06; energy/length. Default 0. */
+  void SetAreaDifferenceMultiplier(double value);
+  double GetAreaDifferenceMultiplier();
+  ///@}
+
+  ///@{
+  /** [contact] topology_changes: whether necks pinch and films rupture; if not, the run stops where
+   * one is about to. True or false. Default true. */
+  void SetContactTopologyChanges(bool value);
+  bool GetContactTopologyChanges();
+  vtkBooleanMacro(ContactTopologyChanges, bool);
+  ///@}
+
+  ///@{
+  /** [contact] disjoining_pressure: pressure that holds films of inner fluid open, at zero
+   * thickness; 0: none. A number from 0 to 1e+06; energy/length^3. Default 0. */
+  void SetContactDisjoiningPressure(double value);
+  double GetContactDisjoiningPressure();
+  ///@}
+
+  ///@{
+  /** [contact] disjoining_range: thickness over which it falls by a factor e. A number above 0 and
+   * up to 1e+06; length. Default 0.02. */
+  void SetContactDisjoiningRange(double value);
+  double GetContactDisjoiningRange();
+  ///@}
+
+  ///@{
+  /** [contact] rupture_thickness: films as thin as this rupture; 0: as thin as the grid can
+   * resolve. A number from 0 to 1e+06; length. Default 0. */
+  void SetContactRuptureThickness(double value);
+  double GetContactRuptureThickness();
+  ///@}
+
+  ///@{
+  /** [run] end_time: when the run ends; it starts at 0. A number above 0 and up to 1e+30; time.
+   * Default 0.0016. */
+  void SetEndTime(double value);
+  double GetEndTime();
+  ///@}
+
+  ///@{
+  /** [stop] energy_rate: the run ends earlier, at rest, where the relative rate of the energy falls
+   * below this; 0: never. A number from 0 to 1e+30; 1/time. Default 0. */
+  void SetStopEnergyRate(double value);
+  double GetStopEnergyRate();
+  ///@}
+
+  ///@{
+  /** [stop] residual_force: the same for the largest normal velocity; given both, both must hold;
+   * 0: never. A number from 0 to 1e+30; length/time. Default 0. */
+  void SetStopResidualForce(double value);
+  double GetStopResidualForce();
+  ///@}
+
+  ///@{
+  /** [stop] topology_changes: the run ends after so many pinches and ruptures; 0: never. An integer
+   * from 0 to 1000000. Default 0. */
+  void SetStopTopologyChanges(int value);
+  int GetStopTopologyChanges();
+  ///@}
+
+  ///@{
+  /** [stop] wall_time: the run ends after so long by the clock; 0: never. A number from 0 to 1e+30;
+   * seconds. Default 0. */
+  void SetStopWallTime(double value);
+  double GetStopWallTime();
+  ///@}
+
+  ///@{
+  /** [numerics] tolerance: time error allowed per step, rms over the membrane. A number above 0 and
+   * up to 0.1; grid spacings. Default 0.005. */
+  void SetTolerance(double value);
+  double GetTolerance();
+  ///@}
+
+  ///@{
+  /** [numerics] max_time_step: longest step; 0 stands for end_time / 16. A number from 0 to 1e+30;
+   * time. Default 0. */
+  void SetMaxTimeStep(double value);
+  double GetMaxTimeStep();
+  ///@}
+
+  ///@{
+  /** [output] frames: stored states, equally spaced in time, start and end included. An integer
+   * from 2 to 100000. Default 11. */
+  void SetOutputFrames(int value);
+  int GetOutputFrames();
+  ///@}
+
+protected:
+  vtkVesicleDynamics();
+  ~vtkVesicleDynamics() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** input,
+    vtkInformationVector* output) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** input,
+    vtkInformationVector* output) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** input,
+    vtkInformationVector* output) override;
+
+private:
+  vtkVesicleDynamics(const vtkVesicleDynamics&) = delete;
+  void operator=(const vtkVesicleDynamics&) = delete;
+
+  class Run;
+  void BeginRunIfNeeded(vtkImageData& image);
+
+  std::string PhiArray = "phi";
+  std::unique_ptr<lamella::Scene> Scene;
+  std::unique_ptr<Run> Current;
+};
+
+#endif

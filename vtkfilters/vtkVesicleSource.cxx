@@ -1,0 +1,114 @@
+#include "vtkVesicleSource.h"
+
+#include "dynamics/start.h"
+#include "fields/image.h"
+#include "fields/report.h"
+#include "fields/scene_properties.h"
+
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+vtkStandardNewMacro(vtkVesicleSource);
+
+namespace
+{
+constexpr std::array<std::string_view, 4> Sections = { "grid", "shape", "perturbation", "domains" };
+}
+
+lamellaVectorProperty(vtkVesicleSource, Nodes, int, nodes);
+lamellaProperty(vtkVesicleSource, HalfWidth, double, half_width);
+lamellaChoiceProperty(vtkVesicleSource, ShapeKind, "shape", "kind");
+lamellaProperty(vtkVesicleSource, ShapeRadius, double, shape.radius);
+lamellaProperty(vtkVesicleSource, ShapeSemiAxis, double, shape.semi_axis);
+lamellaProperty(vtkVesicleSource, ShapeReducedVolume, double, shape.reduced_volume);
+lamellaVectorProperty(vtkVesicleSource, ShapeSemiAxes, double, shape.semi_axes);
+lamellaProperty(vtkVesicleSource, ShapeRingRadius, double, shape.ring_radius);
+lamellaProperty(vtkVesicleSource, ShapeTubeRadius, double, shape.tube_radius);
+lamellaVectorProperty(vtkVesicleSource, ShapeCenter, double, shape.center);
+lamellaVectorProperty(vtkVesicleSource, ShapeRotationAxis, double, shape.rotation_axis);
+lamellaProperty(vtkVesicleSource, ShapeRotationAngle, double, shape.rotation_angle);
+lamellaProperty(vtkVesicleSource, PerturbationAmplitude, double, perturbation.amplitude);
+lamellaProperty(vtkVesicleSource, PerturbationWavelength, double, perturbation.wavelength);
+lamellaProperty(vtkVesicleSource, PerturbationSeed, int, perturbation.seed);
+lamellaProperty(vtkVesicleSource, PerturbationFold, int, perturbation.fold);
+lamellaChoiceProperty(vtkVesicleSource, DomainsKind, "domains", "kind");
+lamellaProperty(vtkVesicleSource, DomainsAreaFraction, double, domains.area_fraction);
+lamellaVectorProperty(vtkVesicleSource, DomainsDirection, double, domains.direction);
+lamellaProperty(vtkVesicleSource, DomainsHalfAngle, double, domains.half_angle);
+lamellaProperty(vtkVesicleSource, DomainsBulge, double, domains.bulge);
+
+void vtkVesicleSource::AddDomain(double x, double y, double z)
+{
+  this->Scene->domains.directions.push_back({ x, y, z });
+  this->Modified();
+}
+
+void vtkVesicleSource::RemoveAllDomains()
+{
+  this->Scene->domains.directions.clear();
+  this->Modified();
+}
+
+int vtkVesicleSource::GetNumberOfDomains()
+{
+  return static_cast<int>(this->Scene->domains.directions.size());
+}
+
+vtkVesicleSource::vtkVesicleSource()
+  : Scene(std::make_unique<lamella::Scene>())
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkVesicleSource::~vtkVesicleSource() = default;
+
+int vtkVesicleSource::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  vtkInformation* info = output->GetInformationObject(0);
+  const lamella::Grid grid = this->Scene->grid();
+  int extent[6];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    extent[2 * axis] = 0;
+    extent[2 * axis + 1] = std::max(1, grid.nodes[axis]) - 1; // nonsense is refused with the data
+  }
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  info->Set(vtkDataObject::ORIGIN(), grid.origin(0), grid.origin(1), grid.origin(2));
+  info->Set(vtkDataObject::SPACING(), grid.spacing, grid.spacing, grid.spacing);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_DOUBLE, 1);
+  return 1;
+}
+
+int vtkVesicleSource::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  return lamella::reporting(this,
+    [&]
+    {
+      if (this->Scene->shape.kind == lamella::ShapeKind::frame ||
+        this->Scene->domains.kind == lamella::DomainsKind::frame)
+      {
+        throw lamella::InputError("stored frames are opened by vtkVesicleRunReader, not here");
+      }
+      lamella::validate(*this->Scene);
+      lamella::Start start = lamella::start_of(*this->Scene);
+      lamella::fill_image(*vtkImageData::GetData(output),
+        { .grid = this->Scene->grid(), .phi = std::move(start.phi), .psi = std::move(start.psi) });
+    });
+}
+
+void vtkVesicleSource::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  std::ostringstream margin;
+  margin << indent;
+  lamella::print_sections(os, margin.str(), *this->Scene, Sections);
+}
