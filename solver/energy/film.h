@@ -20,7 +20,8 @@ struct Film {
   double density(double thickness) const { return 0.5 * range * pressure(thickness); }
   /// Half of what an explicit step may be at most, sheets moving at their pressure.
   double longest_step(double most_pressure) const {
-    return most_pressure > 0 ? 0.5 * range / most_pressure : std::numeric_limits<double>::infinity();
+    return most_pressure > 0 ? 0.5 * range / most_pressure
+                             : std::numeric_limits<double>::infinity();
   }
 };
 

@@ -65,7 +65,7 @@ public:
   /// Points along the curve through `start`, a step or less apart.
   struct Walk {
     Curve points;
-    bool closed; ///< otherwise the curve could not be followed beyond the last point
+    bool closed; ///< otherwise the curve could not be followed beyond the first and last point
   };
   Walk walk(const BoundaryPoint& start, std::size_t most_points) const;
   /// The closed curve with equally spaced points; none where Newton's method fails.
@@ -79,7 +79,9 @@ private:
   };
   std::vector<Foot> feet(std::span<const Vector3d> points) const;
   Curve on_boundary(std::vector<Vector3d> points, int iterations, double tolerance) const;
-  std::optional<BoundaryPoint> advance(const BoundaryPoint& from, double& step) const;
+  std::optional<BoundaryPoint> advance(const BoundaryPoint& from, double& step,
+                                       int direction) const;
+  bool extend(Curve& curve, int direction, std::size_t most_points) const;
   std::vector<Vector3d> equally_spaced(const Curve& curve) const;
 
   const LevelSet &phi_, &psi_;
@@ -144,11 +146,13 @@ Curve Tracer::seeds(const NarrowBand& band) const {
   return on_boundary(parallel_collect<Vector3d>(band.size(), 4096, find), 4, 0.02);
 }
 
-/// The next point along t, `step` or less away: predicted with the curvature, corrected by Newton's
-/// method.
-std::optional<BoundaryPoint> Tracer::advance(const BoundaryPoint& from, double& step) const {
+/// The next point along t (direction 1) or against it (-1), `step` or less away: predicted with the
+/// curvature, corrected by Newton's method.
+std::optional<BoundaryPoint> Tracer::advance(const BoundaryPoint& from, double& step,
+                                             int direction) const {
   for (; step > shortest_step * h_; step /= 2) {
-    const Vector3d predicted = from.x + step * from.t + 0.5 * step * step * from.curvature();
+    const Vector3d predicted =
+        from.x + direction * step * from.t + 0.5 * step * step * from.curvature();
     Foot f = feet(std::span(&predicted, 1))[0];
     if (!f.regular || f.step.norm() > trusted * step || f.point.t.dot(from.t) < std::cos(2 * turn))
       continue;
@@ -158,20 +162,31 @@ std::optional<BoundaryPoint> Tracer::advance(const BoundaryPoint& from, double& 
   return {};
 }
 
-Tracer::Walk Tracer::walk(const BoundaryPoint& start, std::size_t most_points) const {
-  Curve curve{start};
+/// Appends points until the curve closes (true) or cannot be followed.
+bool Tracer::extend(Curve& curve, int direction, std::size_t most_points) const {
+  const BoundaryPoint start = curve.front();
   double step = point_distance * h_;
   while (curve.size() < most_points) {
     const BoundaryPoint at = curve.back();
     step = std::min({2 * step, point_distance * h_, turn / at.curvature().norm()});
     const Vector3d home = start.x - at.x;
-    const double along = home.dot(at.t);
+    const double along = direction * home.dot(at.t);
     if (curve.size() > 2 && along > 0 && home.norm() < 1.2 * step && at.t.dot(start.t) > 0)
-      return {std::move(curve), true};
-    const std::optional<BoundaryPoint> next = advance(at, step);
+      return true;
+    const std::optional<BoundaryPoint> next = advance(at, step, direction);
     if (!next) break;
     curve.push_back(*next);
   }
+  return false;
+}
+
+Tracer::Walk Tracer::walk(const BoundaryPoint& start, std::size_t most_points) const {
+  Curve forwards{start};
+  if (extend(forwards, 1, most_points)) return {std::move(forwards), true};
+  Curve curve{start};
+  extend(curve, -1, most_points);
+  std::ranges::reverse(curve);
+  curve.insert(curve.end(), forwards.begin() + 1, forwards.end());
   return {std::move(curve), false};
 }
 
@@ -230,6 +245,31 @@ void remove_seeds(Curve& seeds, const Curve& curve, double h) {
 
 } // namespace
 
+std::pair<int, int> PhaseBoundary::neighbours(int point) const {
+  const std::size_t i = point;
+  if (i < begin_.back()) {
+    const auto end = std::ranges::upper_bound(begin_, i);
+    const std::size_t first = *(end - 1), last = *end - 1;
+    return {int(i == first ? last : i - 1), int(i == last ? first : i + 1)};
+  }
+  const auto end = std::ranges::upper_bound(piece_begin_, i);
+  return {int(i == *(end - 1) ? i : i - 1), int(i + 1 == *end ? i : i + 1)};
+}
+
+void PhaseBoundary::add_open(std::span<const BoundaryPoint> piece) {
+  double s = 0;
+  for (std::size_t i = 0; i < piece.size(); i++) {
+    BoundaryPoint p = piece[i];
+    const double before = i == 0 ? 0 : (p.x - piece[i - 1].x).norm(),
+                 after = i + 1 == piece.size() ? 0 : (piece[i + 1].x - p.x).norm();
+    s += before;
+    p.s = s;
+    p.weight = 0.5 * (before + after);
+    points_.push_back(p);
+  }
+  piece_begin_.push_back(points_.size());
+}
+
 void PhaseBoundary::trace(const LevelSet& phi, const LevelSet& psi, const NarrowBand& band) {
   const double h = band.grid().spacing;
   const Tracer tracer(phi, psi);
@@ -239,21 +279,26 @@ void PhaseBoundary::trace(const LevelSet& phi, const LevelSet& psi, const Narrow
   Curve seeds = tracer.seeds(band);
   const std::size_t most_points = 1000 + 16 * seeds.size();
   std::ranges::sort(seeds, {}, [](const BoundaryPoint& p) { return p.x[0]; });
+  std::vector<Curve> pieces;
   while (!seeds.empty()) {
-    const Tracer::Walk walk = tracer.walk(seeds.back(), most_points);
+    Tracer::Walk walk = tracer.walk(seeds.back(), most_points);
     const std::optional<Curve> curve = walk.closed ? tracer.finish(walk.points) : std::nullopt;
+    seeds.pop_back();
+    remove_seeds(seeds, walk.points, h); // these go around the sharpest corners too
     if (curve) {
+      remove_seeds(seeds, *curve, h);
       points_.insert(points_.end(), curve->begin(), curve->end());
       begin_.push_back(points_.size());
-    } else {
-      const Vector3d end = walk.points.back().x;
+      continue;
+    }
+    for (const Vector3d& end : {walk.points.front().x, walk.points.back().x}) {
       auto near = [&](const Vector3d& x) { return (x - end).norm() < same_place * h; };
       if (std::ranges::none_of(unresolved_, near)) unresolved_.push_back(end);
     }
-    seeds.pop_back();
-    remove_seeds(seeds, walk.points, h); // these go around the sharpest corners too
-    if (curve) remove_seeds(seeds, *curve, h);
+    pieces.push_back(std::move(walk.points));
   }
+  piece_begin_ = {points_.size()};
+  for (const Curve& piece : pieces) add_open(piece);
 }
 
 } // namespace lamella

@@ -3,6 +3,7 @@
 #include "levelset/narrow_band.h"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lamella {
@@ -32,18 +33,24 @@ public:
   /// All of them, curve after curve.
   std::span<const BoundaryPoint> points() const { return points_; }
   /// Places where a curve could not be followed all the way around, because phi and psi are tangent
-  /// or turn within a fraction of a spacing (domains about to merge, to part or to vanish). Such
-  /// curves are left out.
+  /// or turn within a fraction of a spacing (domains about to merge, to part or to vanish).
   std::span<const Eigen::Vector3d> unresolved() const { return unresolved_; }
+  /// What could be followed of such curves: open pieces, their points after those of the closed
+  /// ones in points(), not equally spaced.
+  std::size_t open_pieces() const { return piece_begin_.size() - 1; }
 
-  /// oint f(point) dl over all curves.
+  /// The points before and after one; at the end of an open piece, the point itself.
+  std::pair<int, int> neighbours(int point) const;
+
+  /// oint f(point) dl over all curves and pieces.
   template <class F>
   double integral(F&& f) const {
     double sum = 0;
     for (const BoundaryPoint& p : points_) sum += p.weight * f(p);
     return sum;
   }
-  /// d_s f(point) at all points, by central differences of eighth order.
+  /// d_s f(point) at all points, by central differences of eighth order; of second order on open
+  /// pieces.
   template <class F>
   std::vector<double> derivative(F&& f) const {
     constexpr double w[5] = {0, 4. / 5, -1. / 5, 4. / 105, -1. / 280};
@@ -57,6 +64,11 @@ public:
         out.push_back(sum / p[i].weight);
       }
     }
+    for (std::size_t i = out.size(); i < points_.size(); i++) {
+      const auto [before, after] = neighbours(int(i));
+      const double way = points_[after].s - points_[before].s;
+      out.push_back(way > 0 ? (f(points_[after]) - f(points_[before])) / way : 0);
+    }
     return out;
   }
   double length() const {
@@ -64,8 +76,11 @@ public:
   }
 
 private:
+  void add_open(std::span<const BoundaryPoint> piece);
+
   std::vector<BoundaryPoint> points_;
-  std::vector<std::size_t> begin_{0};
+  std::vector<std::size_t> begin_{0};       // of the closed curves
+  std::vector<std::size_t> piece_begin_{0}; // of the open pieces
   std::vector<Eigen::Vector3d> unresolved_;
 };
 

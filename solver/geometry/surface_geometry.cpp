@@ -1,6 +1,5 @@
 #include "geometry/surface_geometry.h"
 
-#include "levelset/quadrature.h"
 #include "parallel.h"
 
 #include <algorithm>
@@ -9,8 +8,7 @@
 namespace lamella {
 
 namespace {
-constexpr double reach_inside =
-    1.8; // spacings; the quadrature kernel and linear interpolation need no more
+constexpr double least_reach = 1.8; // spacings; linear interpolation needs no more
 // Spacings, of the way through the inside. Close to a sheet distances are those to it, without the
 // crease in the middle between two.
 constexpr double first_probe = 3, near_opposite = 1.5, longest_stride = 4, thickest = 24;
@@ -19,18 +17,21 @@ constexpr std::size_t chunk = 256;
 
 void SurfaceGeometry::sample(const LevelSet& phi, const NarrowBand& band) {
   grid_ = band.grid();
-  const double h = grid_.spacing;
+  const double h = grid_.spacing, inside = std::max(least_reach, -kernel_.begin),
+               outside = std::max(least_reach, kernel_.end);
   sampled_.resize(band.size());
   entry_.clear();
   for (std::size_t s = 0; s < band.size(); s++) {
     const double d = band.distance()[s] / h;
-    sampled_[s] = d > -reach_inside && d < QuadratureKernel::end;
+    sampled_[s] = d > -inside && d < outside;
     if (sampled_[s]) entry_.push_back(int(s));
   }
-  second_.find(phi, band, QuadratureKernel::begin * h, QuadratureKernel::end * h);
+  second_.find(phi, band, kernel_.begin * h, kernel_.end * h);
   for (auto* a :
        {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &sharpest_, &weight_})
     a->resize(entry_.size() + second_.size());
+  if (with_gradient_)
+    for (auto* a : {&KMx_, &KMy_, &KMz_}) a->resize(size());
   const ConstPoints first = band.points(), second = second_.points();
   for (std::size_t i = 0; i < size(); i++) {
     const bool own = i < entry_.size();
@@ -50,8 +51,13 @@ void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band) { evaluate(phi
 void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order) {
   const SplineView spline = phi.view();
   parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
-    const SurfaceArrays out{&phi_[begin],  &nx_[begin], &ny_[begin], &nz_[begin],
-                            &grad_[begin], &KM_[begin], &K_[begin],  &lap_KM_[begin]};
+    SurfaceArrays out{&phi_[begin], &nx_[begin], &ny_[begin],     &nz_[begin], &grad_[begin],
+                      &KM_[begin],  &K_[begin],  &lap_KM_[begin], {}};
+    if (with_gradient_) {
+      out.grad_KM[0] = &KMx_[begin];
+      out.grad_KM[1] = &KMy_[begin];
+      out.grad_KM[2] = &KMz_[begin];
+    }
     (fourth_order ? kernels().jets : kernels().curvatures)(
         spline, end - begin, {&x_[begin], &y_[begin], &z_[begin]}, out);
     finish(band, begin, end);
@@ -74,7 +80,7 @@ void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t en
     const std::size_t s = own ? entry_[i] : i - entry_.size();
     const double d =
         (node.x[s] - x_[i]) * nx_[i] + (node.y[s] - y_[i]) * ny_[i] + (node.z[s] - z_[i]) * nz_[i];
-    weight_[i] = QuadratureKernel::weight(d, KM_[i], K_[i], h);
+    weight_[i] = kernel_.weight(d, KM_[i], K_[i], h);
   }
 }
 

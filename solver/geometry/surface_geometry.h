@@ -1,6 +1,7 @@
 #pragma once
 #include "grid/memory.h"
 #include "levelset/narrow_band.h"
+#include "levelset/quadrature.h"
 #include "levelset/second_sheets.h"
 
 #include <span>
@@ -16,6 +17,11 @@ namespace lamella {
 /// K_M = -2 and K = 1 on the unit sphere; N points outwards.
 class SurfaceGeometry {
 public:
+  /// `gradient_of_KM`: whether jets() finds it.
+  explicit SurfaceGeometry(QuadratureKernel kernel = QuadratureKernel::outside(),
+                           bool gradient_of_KM = false)
+      : kernel_(kernel), with_gradient_(gradient_of_KM) {}
+
   /// Takes the samples that the band offers.
   void sample(const LevelSet& phi, const NarrowBand& band);
 
@@ -41,6 +47,8 @@ public:
   std::span<const double> KM() const { return KM_; }
   std::span<const double> K() const { return K_; }
   std::span<const double> lap_KM() const { return lap_KM_; }
+  /// Of K_M in space; its part along the membrane is the surface gradient.
+  Vec3 grad_KM(std::size_t i) const { return {KMx_[i], KMy_[i], KMz_[i]}; }
   /// Largest |principal curvature|, before K_M and K were limited to what the grid can carry.
   double sharpest(std::size_t i) const { return sharpest_[i]; }
   /// int f dA = sum of weight f.
@@ -53,11 +61,14 @@ private:
   void evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order);
   void finish(NarrowBand& band, std::size_t begin, std::size_t end);
 
+  QuadratureKernel kernel_;
+  bool with_gradient_;
   Grid grid_;
   std::vector<int> entry_;
   std::vector<char> sampled_;
   SecondSheets second_;
   Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, sharpest_, weight_;
+  Array<double> KMx_, KMy_, KMz_;
 };
 
 } // namespace lamella

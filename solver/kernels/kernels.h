@@ -29,6 +29,7 @@ struct SurfaceArrays {
   double *nx, *ny, *nz, *grad; ///< unit normal and |grad phi|
   double *KM, *K;              ///< sum and product of the principal curvatures of the level surface
   double* lap_KM;              ///< surface Laplacian of KM
+  double* grad_KM[3];          ///< gradient of KM in space, x, y, z; null where it is not wanted
 };
 
 /// One step of the blended SBDF2/Euler scheme in Fourier space, for a row of modes along x.
@@ -59,7 +60,7 @@ struct Kernels {
   void (*closest_points)(const SplineView& spline, std::size_t n, ConstPoints x, Points p,
                          int iterations, bool verify, double* step);
 
-  /// Order-2 surface quantities (all of SurfaceArrays but lap_KM) at points.
+  /// Order-2 surface quantities (all of SurfaceArrays but lap_KM and grad_KM) at points.
   void (*curvatures)(const SplineView& spline, std::size_t n, ConstPoints p,
                      const SurfaceArrays& out);
 

@@ -229,7 +229,8 @@ void curvatures(const SplineView& s, std::size_t n, ConstPoints p, const Surface
 
 /// Lap_s K_M with K_M = -div N of all level surfaces around, Eq. 58 (corrected, see errata):
 /// Lap_s F = Lap F + K_M N.grad F - N.Hess(F).N. No property of a distance function is used.
-LAMELLA_INLINE V8 laplacian_of_KM(const V8* d, const Curvatures& c) {
+/// `gradient` receives that of K_M in space.
+LAMELLA_INLINE V8 laplacian_of_KM(const V8* d, const Curvatures& c, V8* gradient) {
   constexpr const auto& s = derivative_index<4>.slot;
   auto derivative = [&](int i, int j, int k) {
     return Taylor2{d[s[i][j][k]],        d[s[i + 1][j][k]],     d[s[i][j + 1][k]],
@@ -245,6 +246,9 @@ LAMELLA_INLINE V8 laplacian_of_KM(const V8* d, const Curvatures& c) {
   const Taylor2 numerator = x2 * (yy + zz) + y2 * (xx + zz) + z2 * (xx + yy) - cross - cross;
   const Taylor2 F =
       numerator * inverse_cubed_root(x2 + y2 + z2, c.inv_s, 1.0 / c.grad); // div N = -K_M
+  gradient[0] = -F.x;
+  gradient[1] = -F.y;
+  gradient[2] = -F.z;
   const V8* n = c.normal;
   const V8 along = n[0] * F.x + n[1] * F.y + n[2] * F.z;
   const V8 twice_along = n[0] * n[0] * F.xx + n[1] * n[1] * F.yy + n[2] * n[2] * F.zz +
@@ -260,7 +264,10 @@ void jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceArrays
     derivatives<4>(s, q, d);
     const Curvatures c = curvatures_from<4>(d);
     put_curvatures(c, first, n, out);
-    put(out.lap_KM, first, n, laplacian_of_KM(d, c));
+    V8 gradient[3];
+    put(out.lap_KM, first, n, laplacian_of_KM(d, c, gradient));
+    if (out.grad_KM[0])
+      for (int m = 0; m < 3; m++) put(out.grad_KM[m], first, n, gradient[m]);
   }
 }
 

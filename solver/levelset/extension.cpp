@@ -95,8 +95,10 @@ void Extension::complete(double fallback, std::span<double> value) const {
   });
 }
 
-void Extension::fill(const NarrowBand& band, std::span<const double> value) {
+void Extension::fill(const NarrowBand& band, std::span<const double> value,
+                     std::span<const double> weight) {
   band_ = &band;
+  weight_ = weight;
   tapered_.resize(band.size());
   Level& first = levels_.front();
   const std::size_t plane = std::size_t(first.nodes[0]) * first.nodes[1];
@@ -105,12 +107,11 @@ void Extension::fill(const NarrowBand& band, std::span<const double> value) {
     std::fill_n(v, plane, 0.0);
     std::fill_n(w, plane, 0.0);
     for (int s = band.plane_begin(int(2 * k)); s < band.plane_begin(int(2 * k) + 2); s++) {
-      const double taper = band.taper()[s];
-      tapered_[s] = taper * value[s];
+      tapered_[s] = weight[s] * value[s];
       const int node = band.node()[s], i = node % grid_.nx(), j = node / grid_.nx() % grid_.ny();
       const std::size_t cell = std::size_t(j / 2) * first.nodes[0] + i / 2;
       v[cell] += tapered_[s];
-      w[cell] += taper;
+      w[cell] += weight[s];
     }
     for (std::size_t i = 0; i < plane; i++) {
       const double f = w[i] > 1 ? 1 / w[i] : 1;
@@ -173,7 +174,7 @@ void Extension::plane(int k, double* out) const {
   const std::size_t first = std::size_t(k) * grid_.nx() * grid_.ny();
   for (int s = band_->plane_begin(k); s < band_->plane_begin(k + 1); s++) {
     double& v = out[band_->node()[s] - first];
-    v = tapered_[s] + (1 - band_->taper()[s]) * v;
+    v = tapered_[s] + (1 - weight_[s]) * v;
   }
 }
 

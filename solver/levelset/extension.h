@@ -19,9 +19,14 @@ public:
   /// values around it; `fallback` where there are none.
   void complete(double fallback, std::span<double> value) const;
 
-  /// Prepares plane(): values of the band, tapered at its edge, and beyond it averages over ever
-  /// larger cubes (a push-pull pyramid, cell centred, hence mirror symmetric).
-  void fill(const NarrowBand& band, std::span<const double> value);
+  /// Prepares plane(): values of the band where their weight is 1, and where it is less, and beyond
+  /// the band, averages over ever larger cubes (a push-pull pyramid, cell centred, hence mirror
+  /// symmetric). `weight` has to outlast the calls of plane().
+  void fill(const NarrowBand& band, std::span<const double> value, std::span<const double> weight);
+  /// With the band's taper for weights.
+  void fill(const NarrowBand& band, std::span<const double> value) {
+    fill(band, value, band.taper());
+  }
 
   /// Extended values at the nodes of plane k.
   void plane(int k, double* out) const;
@@ -44,6 +49,7 @@ private:
   Grid grid_;
   std::vector<Level> levels_; // 2, 4, 8 ... nodes of the grid a cell
   const NarrowBand* band_ = nullptr;
+  std::span<const double> weight_;
   std::vector<double> tapered_;
   std::vector<Borrower> borrowers_;
 };

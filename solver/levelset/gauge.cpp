@@ -29,6 +29,10 @@ double fourth_differences(const Grid& grid, const double* c, int node) {
 
 } // namespace
 
+double noise_damping(const Grid& grid, std::span<const double> c, int node) {
+  return -filter_strength / 48 * fourth_differences(grid, c.data(), node);
+}
+
 Gauge::Gauge(const Grid& grid) : change_(grid.size(), 0.0) {}
 
 void Gauge::filter(LevelSet& phi, const NarrowBand& band) {
@@ -37,8 +41,7 @@ void Gauge::filter(LevelSet& phi, const NarrowBand& band) {
   at_point_.resize(band.size());
   parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++)
-      change_[node[s]] = -filter_strength / 48 * band.taper()[s] *
-                         fourth_differences(phi.grid(), c.data(), node[s]);
+      change_[node[s]] = band.taper()[s] * noise_damping(phi.grid(), c, node[s]);
   });
   SplineView change = phi.view();
   change.coefficients = change_.data();

@@ -7,6 +7,9 @@
 
 namespace lamella {
 
+/// What damps grid-scale noise of coefficients c at a node: -strength/48 sum_d delta_d^4 c.
+double noise_damping(const Grid& grid, std::span<const double> c, int node);
+
 /// Freedom in phi that the membrane does not see: {phi = 0} stays, phi around it may change.
 class Gauge {
 public:

@@ -37,37 +37,37 @@ private:
   double value_[intervals + 1];
 };
 
-/// Kernels that end between 1 and 3 spacings, in steps.
+/// Kernels of 2 to 4 spacings, in steps.
 class Tables {
 public:
-  static constexpr double earliest_end = 1;
   Tables() {
     for (int i = 0; i <= steps; i++) table_.emplace_back(width(i));
   }
-  static int nearest(double end) {
-    const double share = (end - earliest_end) / (QuadratureKernel::end - earliest_end);
-    return int(std::lround(std::clamp(share, 0.0, 1.0) * steps));
+  static int nearest(double width) {
+    return int(std::lround((width - narrowest) / (widest - narrowest) * steps));
   }
-  static double width(int i) {
-    return earliest_end + (QuadratureKernel::end - earliest_end) * i / steps -
-           QuadratureKernel::begin;
-  }
+  static double width(int i) { return narrowest + (widest - narrowest) * i / steps; }
   const Table& operator[](int i) const { return table_[i]; }
 
 private:
+  static constexpr double narrowest = 2, widest = 4;
   static constexpr int steps = 64;
   std::vector<Table> table_;
 };
 
 } // namespace
 
-double QuadratureKernel::weight(double d, double KM, double K, double h) {
+double QuadratureKernel::weight(double d, double KM, double K, double h) const {
   static const Tables tables;
-  constexpr double focal_share =
-      1.05; // of the way to the focal point outside, where the kernel ends
-  const double sharpest = 0.5 * KM + std::sqrt(std::max(0.0, 0.25 * KM * KM - K));
-  const int kind = Tables::nearest(sharpest > 0 ? focal_share / (sharpest * h) : end);
-  const double width = Tables::width(kind), u = 2 * (d / h - begin) / width - 1;
+  constexpr double focal_share = 1.05, least = 1; // of the way to a focal point, where it ends
+  const double root = std::sqrt(std::max(0.0, 0.25 * KM * KM - K));
+  auto reach = [=](double most, double curvature) {
+    return curvature * h * most > focal_share ? std::max(least, focal_share / (curvature * h))
+                                              : most;
+  };
+  const double last = reach(end, 0.5 * KM + root), first = -reach(-begin, root - 0.5 * KM);
+  const int kind = Tables::nearest(last - first);
+  const double width = Tables::width(kind), u = 2 * (d / h - first) / width - 1;
   if (!(std::abs(u) < 1)) return 0;
   constexpr double least_steiner = 0.05; // beyond the focal points of an unresolved rim
   return h * h * tables[kind](u) / std::max(least_steiner, 1 - d * KM + d * d * K);
