@@ -13,9 +13,9 @@ namespace lamella {
 namespace {
 using std::numbers::pi;
 
-constexpr double rounding = 1e-12;       // of times, relative
-constexpr double change_per_step = 1e-3; // of a reduced value that is led somewhere
-const Eigen::Vector3d to_quantity{1, -1, -2};
+constexpr double rounding = 1e-12;         // of times, relative
+constexpr double change_per_step = 2.5e-3; // of a reduced value that is led somewhere
+const Eigen::Vector4d to_quantity{1, -1, -2, -1};
 
 double approach(double from, double to, double longest) {
   return from + std::clamp(to - from, -longest, longest);
@@ -23,24 +23,26 @@ double approach(double from, double to, double longest) {
 } // namespace
 
 Quantities quantities(const SurfaceIntegrals& integrals) {
-  return {integrals.volume, integrals.area(), integrals.int_KM()};
+  return {integrals.volume, integrals.area(), integrals.int_KM(), integrals.area_Ld};
 }
 
 Constraints::Constraints(const Scene& scene)
     : courses_{{{scene.volume.constraint, scene.volume.ramp},
                 {Constraint::fixed, {}},
-                {scene.area_difference.constraint, scene.area_difference.ramp}}},
-      given_{scene.volume.pressure, 0, scene.area_difference.multiplier} {
+                {scene.area_difference.constraint, scene.area_difference.ramp},
+                {scene.has_phases() ? Constraint::fixed : Constraint::free, {}}}},
+      given_{scene.volume.pressure, 0, scene.area_difference.multiplier, 0} {
   const Course& last = courses_[2];
   held_ = {courses_[0].constraint != Constraint::free, true,
            last.constraint == Constraint::fixed ||
-               (last.constraint == Constraint::ramped && last.ramp.start_times.front() <= 0)};
+               (last.constraint == Constraint::ramped && last.ramp.start_times.front() <= 0),
+           scene.has_phases()};
   list_held();
 }
 
 void Constraints::list_held() {
   indices_.clear();
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 4; i++)
     if (held_[i]) indices_.push_back(i);
 }
 
@@ -59,7 +61,7 @@ void Constraints::begin(const Quantities& start) {
   const double radius = std::sqrt(start[1] / (4 * pi));
   courses_[0].factor = 4. / 3 * pi * radius * radius * radius;
   courses_[2].factor = -8 * pi * radius;
-  for (int i = 0; i < 3; i++) courses_[i].start = start[i] / courses_[i].factor;
+  for (int i = 0; i < 4; i++) courses_[i].start = start[i] / courses_[i].factor;
 }
 
 double Constraints::Course::at(double time) const {
@@ -81,13 +83,13 @@ double Constraints::Course::end_time() const {
 
 Quantities Constraints::target(double time) const {
   Quantities q;
-  for (int i = 0; i < 3; i++) q[i] = courses_[i].factor * courses_[i].at(time);
+  for (int i = 0; i < 4; i++) q[i] = courses_[i].factor * courses_[i].at(time);
   return q;
 }
 
 Quantities Constraints::rate(double time) const {
   Quantities q = Quantities::Zero();
-  for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < 4; i++) {
     const Course& c = courses_[i];
     if (c.constraint != Constraint::ramped || !held_[i]) continue;
     const double soon = 1e-6 * change_per_step / c.ramp.rate;
@@ -125,7 +127,7 @@ double Constraints::longest_step(double time) const {
   for (const double t : turning_points())
     if (t > time * (1 + rounding)) longest = std::min(longest, t - time);
   const Quantities moving = rate(time);
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 4; i++)
     if (moving[i] != 0) longest = std::min(longest, change_per_step / courses_[i].ramp.rate);
   return longest;
 }
@@ -142,19 +144,19 @@ Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b)
                                    (scaled.transpose() * row_scale.cwiseProduct(b)));
 }
 
-Eigen::Vector3d Constraints::combination(const Eigen::Matrix3d& effect,
+Eigen::Vector4d Constraints::combination(const Eigen::Matrix4d& effect,
                                          const Quantities& change) const {
   const Eigen::VectorXd x = solve_scaled(effect(indices_, indices_), change(indices_));
-  Eigen::Vector3d all = Eigen::Vector3d::Zero();
+  Eigen::Vector4d all = Eigen::Vector4d::Zero();
   all(indices_) = x;
   return all;
 }
 
 Multipliers Constraints::multipliers(const SurfaceIntegrals& integrals,
                                      const Quantities& rate) const {
-  Eigen::Vector3d given = given_;
+  Eigen::Vector4d given = given_;
   for (const int i : indices_) given[i] = 0;
-  const Eigen::Vector3d moments =
+  const Eigen::Vector4d moments =
       integrals.variation + rate.cwiseQuotient(to_quantity) - integrals.gram * given;
   return given + combination(integrals.gram, moments);
 }
@@ -162,8 +164,8 @@ Multipliers Constraints::multipliers(const SurfaceIntegrals& integrals,
 bool Constraints::is_delicate(const SurfaceIntegrals& integrals) const {
   if (held_[2]) return true;
   constexpr double little = 0.03; // of independence: least eigenvalue of the correlations
-  const Eigen::Vector3d scale = integrals.gram.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::Matrix3d correlation = scale.asDiagonal() * integrals.gram * scale.asDiagonal();
+  const Eigen::Vector4d scale = integrals.gram.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix4d correlation = scale.asDiagonal() * integrals.gram * scale.asDiagonal();
   const Eigen::MatrixXd held = correlation(indices_, indices_);
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(held, Eigen::EigenvaluesOnly)
              .eigenvalues()[0] < little;

@@ -9,22 +9,23 @@
 
 namespace lamella {
 
-/// Volume, area, and int K_M dA, or a change of them.
-using Quantities = Eigen::Vector3d;
+/// Volume, area, int K_M dA, and the area of the Ld phase; or a change of them.
+using Quantities = Eigen::Vector4d;
 Quantities quantities(const SurfaceIntegrals& integrals);
 
-/// Coefficients of 1, K_M, K in the normal velocity: P, sigma, 2 h sigma_DA (Eq. 80).
-using Multipliers = Eigen::Vector3d;
+/// Coefficients of 1, K_M, K, q K_M in the normal velocity: P, sigma, 2 h sigma_DA (Eq. 80), and
+/// what the tension of Ld is above that of Lo, which sigma is with phases; q is the share of Ld.
+using Multipliers = Eigen::Vector4d;
 
 /// First-order change of the quantities by a normal displacement u, from int u dA, int K_M u dA,
-/// int K u dA.
-inline Quantities change_from(const Eigen::Vector3d& moments) {
-  return {moments[0], -moments[1], -2 * moments[2]};
+/// int K u dA, int q K_M u dA.
+inline Quantities change_from(const Eigen::Vector4d& moments) {
+  return {moments[0], -moments[1], -2 * moments[2], -moments[3]};
 }
 
 /// Which quantities are held, where they are led to, and the multipliers of those that are free.
 ///
-/// Every vector has a component for each of the three; those of free quantities do not count.
+/// Every vector has a component for each of the four; those of free quantities do not count.
 class Constraints {
 public:
   explicit Constraints(const Scene& scene);
@@ -55,7 +56,7 @@ public:
 
   /// Factors of the held quantities' directions that bring about a change; `effect` has a column of
   /// changes for each direction.
-  Eigen::Vector3d combination(const Eigen::Matrix3d& effect, const Quantities& change) const;
+  Eigen::Vector4d combination(const Eigen::Matrix4d& effect, const Quantities& change) const;
 
   /// Corrections must be made with care: the area difference is held, or 1 and K_M are almost
   /// dependent on this membrane, a long tube, so that a small correction takes a long way.
@@ -79,13 +80,13 @@ private:
   std::vector<double> turning_points() const;
   void list_held();
 
-  std::array<Course, 3> courses_;
-  std::array<bool, 3> held_{};
+  std::array<Course, 4> courses_;
+  std::array<bool, 4> held_{};
   std::vector<int> indices_;
   Multipliers given_ = Multipliers::Zero();
 };
 
-/// Solves m x = b (size 1 to 3) with rows and columns scaled to unit norm and directions of
+/// Solves m x = b (size 1 to 4) with rows and columns scaled to unit norm and directions of
 /// singular value below 1e-4 damped out: on a sphere volume and area say the same, and what they
 /// differ by is noise. (1e-4 is about the relative variance of K_M at a reduced volume of 0.9999.)
 Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b);

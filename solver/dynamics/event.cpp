@@ -10,9 +10,9 @@ namespace lamella {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> names{"fission",     "rupture",     "fusion",
-                                                "vanished",    "recentred",   "sharp",
-                                                "thin_inside", "thin_outside"};
+constexpr std::array<std::string_view, 11> names{
+    "fission",       "rupture",         "fusion", "vanished",    "recentred",   "domains_merged",
+    "domain_parted", "domain_vanished", "sharp",  "thin_inside", "thin_outside"};
 
 /// A length, and how many grid spacings it is.
 std::string length_text(double length, double spacing) {
@@ -35,6 +35,15 @@ std::string what_happened(const Event& event, double spacing) {
   case Event::Kind::recentred:
     return fmt::format("the box moved by ({}) cells to follow the vesicle",
                        fmt::join(event.cells, ", "));
+  case Event::Kind::domains_merged:
+    return fmt::format("Ld domains met at {} and became one: {} -> {} domains", place,
+                       event.domains_before, event.domains_after);
+  case Event::Kind::domain_parted:
+    return fmt::format("an Ld domain parted at {}: {} -> {} domains", place, event.domains_before,
+                       event.domains_after);
+  case Event::Kind::domain_vanished:
+    return fmt::format("an Ld domain shrank away at {}: {} -> {} domains", place,
+                       event.domains_before, event.domains_after);
   case Event::Kind::sharp:
     return fmt::format("the membrane bends with a radius of {} at {}, sharper than the grid "
                        "resolves",

@@ -11,12 +11,15 @@ namespace lamella {
 /// Something that happened to a membrane and that its numbers alone do not tell.
 struct Event {
   enum class Kind {
-    fission,     ///< a neck was cut, or closed by itself
-    rupture,     ///< a film of inner fluid broke: a hole through the vesicle
-    fusion,      ///< two places of the membrane met and became one
-    vanished,    ///< a part too small for the grid was removed
-    recentred,   ///< the box followed the vesicle
-    sharp,       ///< a radius of curvature is below what the grid resolves
+    fission,         ///< a neck was cut, or closed by itself
+    rupture,         ///< a film of inner fluid broke: a hole through the vesicle
+    fusion,          ///< two places of the membrane met and became one
+    vanished,        ///< a part too small for the grid was removed
+    recentred,       ///< the box followed the vesicle
+    domains_merged,  ///< two domains of the Ld phase met and became one
+    domain_parted,   ///< one became two
+    domain_vanished, ///< one shrank away
+    sharp,           ///< a radius of curvature is below what the grid resolves
     thin_inside, ///< the membrane is nearer to itself, through the inside, than the grid resolves
     thin_outside ///< the same through the outside
   };
@@ -27,6 +30,7 @@ struct Event {
       0; ///< length: neck radius, half the thickness of a film or gap, radius of curvature
   int components_before = 0, components_after = 0;
   int genus_before = 0, genus_after = 0;
+  int domains_before = 0, domains_after = 0;  ///< of the Ld phase
   double area_before = 0, area_cut = 0;       ///< as the change of topology left it; then put back
   double energy_before = 0, energy_after = 0; ///< after: on the constraints again
   std::array<int, 3> cells{};                 ///< recentred: the box moved by so many

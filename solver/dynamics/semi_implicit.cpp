@@ -23,6 +23,7 @@ SemiImplicit::SemiImplicit(const Grid& grid, Fourier& fourier, int responses)
   for (int i = 0; i < responses; i++)
     responses_.push_back(
         {Array<std::complex<double>>(fourier.modes(), 0.0), Array<double>(grid.size(), 0.0)});
+  none_.assign(2 * fourier.row_modes(), 0.0);
   auto symbol = [&](int axis, int m) {
     return std::max(least_spline_symbol, fourier.spline_symbol(axis, m));
   };
@@ -61,9 +62,9 @@ void SemiImplicit::predict(const Extension& rates, double dt, const ImplicitSymb
   const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
   auto step = [&](int ky, int kz, std::complex<double>* modes) {
     const std::size_t at = fourier_.row_index(ky, kz);
-    kernels().spectral_row(row(ky, kz), numbers(modes), numbers(&rate_[at]),
-                           numbers(&spectral_increment_[at]), numbers(&responses_[0].spectral[at]),
-                           last_factor_);
+    kernels().spectral_row(
+        row(ky, kz), numbers(modes), numbers(&rate_[at]), numbers(&spectral_increment_[at]),
+        responses_.empty() ? none_.data() : numbers(&responses_[0].spectral[at]), last_factor_);
   };
   fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step,
                  [&](int k, const double* in) { std::copy_n(in, plane, &increment_[k * plane]); });
@@ -94,7 +95,9 @@ void SemiImplicit::apply(LevelSet& phi, std::span<const double> factors, double 
       c[i] += increment_[i];
     }
   });
-  last_factor_ = factors[0]; // the next predict() adds it while it reads the rows anyway
+  last_factor_ = responses_.empty()
+                     ? 0
+                     : factors[0]; // the next predict() adds it while it reads the rows anyway
   for (std::size_t r = 1; r < responses_.size(); r++)
     for (std::size_t i = 0; i < spectral_increment_.size(); i++)
       spectral_increment_[i] += factors[r] * responses_[r].spectral[i];

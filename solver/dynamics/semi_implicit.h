@@ -23,7 +23,7 @@ struct ImplicitSymbol {
 /// A step is made of predict(), respond() and apply(), in this order.
 class SemiImplicit {
 public:
-  /// `responses`: to how many constraint forces, 1 or 2.
+  /// `responses`: to how many constraint forces.
   SemiImplicit(const Grid& grid, Fourier& fourier, int responses);
 
   /// Coefficient increment of a step of length dt at the given nodal rates.
@@ -63,6 +63,7 @@ private:
 
   Grid grid_;
   Fourier& fourier_;
+  std::vector<double> none_;               // a row of no correction
   std::vector<double> kx2_, inv_symbol_x_; // each number twice: real and imaginary part
   std::vector<double> k2_[2], symbol_[2];  // along y and z
   struct Response {

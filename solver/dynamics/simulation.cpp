@@ -31,25 +31,37 @@ Simulation::Simulation(const Scene& scene) : Simulation(scene, start_of(scene)) 
 Simulation::Simulation(const Scene& scene, const Start& start)
     : contact_(scene.contact),
       control_(
-          {scene.numerics.tolerance, scene.grid().spacing, scene.membrane.bending_modulus,
+          {scene.numerics.tolerance, scene.grid().spacing,
+           scene.has_phases() ? std::max(scene.ld.bending_modulus, scene.lo.bending_modulus)
+                              : scene.membrane.bending_modulus,
            scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16}),
       fourier_(scene.grid()), vesicle_(scene, start, fourier_), gauge_(scene.grid()),
       stepper_(scene.grid(), fourier_,
-               scene.area_difference.constraint == Constraint::free ? 1 : 2),
+               scene.area_difference.constraint == Constraint::free && !scene.has_phases() ? 1 : 2),
       cells_(start.cells) {
+  if (scene.has_phases()) psi_stepper_.emplace(scene.grid(), fourier_, 0);
+  if (vesicle_.stretch()) c_stepper_.emplace(scene.grid(), fourier_, 0);
   if (vesicle_.drift(0) > hopeless_drift) throw RunError(why_not_kept());
   measures_ = vesicle_.measures(0);
   topology_ = {measures_.components, measures_.genus};
   check(measures_);
   find_narrow_places();
+  if (vesicle_.phases())
+    for (const Domain& d : vesicle_.phases()->domains())
+      if (d.is_Ld) domains_.push_back(d);
   note_unresolved();
 }
 
 Frame Simulation::frame() const {
-  LevelSet phi = vesicle_.phi();
-  if (broken_) std::ranges::copy(stepper_.before(), phi.coefficients().begin());
-  phi.update_nodal();
-  return {grid(), time(), {phi.nodal().begin(), phi.nodal().end()}, cells_};
+  auto nodal = [&](LevelSet field, const SemiImplicit& stepper) {
+    if (broken_) std::ranges::copy(stepper.before(), field.coefficients().begin());
+    field.update_nodal();
+    return std::vector<double>(field.nodal().begin(), field.nodal().end());
+  };
+  Frame frame{grid(), time(), nodal(vesicle_.phi(), stepper_), cells_};
+  if (psi_stepper_) frame.psi = nodal(vesicle_.phases()->psi(), *psi_stepper_);
+  if (c_stepper_) frame.c = nodal(vesicle_.stretch()->c(), *c_stepper_);
+  return frame;
 }
 
 void Simulation::step(double latest) {
@@ -61,6 +73,7 @@ void Simulation::step(double latest) {
     go_back();
   }
   change_topology_if_needed();
+  note_domains();
   note_unresolved();
   recentre_if_needed();
   renormalise_if_needed();
@@ -70,26 +83,25 @@ void Simulation::step(double latest) {
 bool Simulation::try_step(double dt, double latest) {
   const SurfaceGeometry& surface = vesicle_.surface();
   const Constraints& constraints = vesicle_.constraints();
-  const double C = vesicle_.bending().spontaneous_curvature,
-               kappa = vesicle_.bending().bending_modulus;
   const double energy = vesicle_.energy();
   double then = time() + dt;
   if (then > latest * (1 - 1e-12)) then = latest; // rounding
   gauge_.filter(vesicle_.phi(), vesicle_.band());
   extend_rates([&](std::size_t i) { return vesicle_.velocity(i); });
-  stepper_.predict(vesicle_.extension(), dt,
-                   {kappa, std::max(0.0, vesicle_.multipliers()[1] + 0.5 * kappa * C * C)});
+  stepper_.predict(vesicle_.extension(), dt, implicit_symbol());
   if (steps_ % steps_between_responses == 0 || dt > 1.5 * response_dt_ || 1.5 * dt < response_dt_) {
     extend_rates([&](std::size_t i) { return surface.KM()[i]; });
     stepper_.respond(0, vesicle_.extension());
-    if (constraints.is_held(2)) {
-      extend_rates([&](std::size_t i) { return surface.K()[i]; });
+    if (const int m = second_response()) {
+      extend_rates([&](std::size_t i) { return vesicle_.direction(m, i); });
       stepper_.respond(1, vesicle_.extension());
     }
     response_dt_ = dt;
   }
+  if (psi_stepper_) predict_boundary(dt);
+  if (c_stepper_) step_stretch(dt);
   apply_constrained(then);
-  error_ = step_error();
+  error_ = std::max(step_error(), boundary_error());
   last_dt_ = dt;
   broken_ = true;
   const Quantities excess = vesicle_.measure(then);
@@ -97,7 +109,7 @@ bool Simulation::try_step(double dt, double latest) {
   Measures now = vesicle_.measures(then);
   now.dt = dt;
   const bool driven = constraints.rate(then) != Quantities::Zero() ||
-                      constraints.rate(time()) != Quantities::Zero();
+                      constraints.rate(time()) != Quantities::Zero() || vesicle_.turns_at(then);
   if (!driven && now.energy - energy > energy_jump * measures_.bending_energy) return false;
   if (broke_film(now)) {
     const CriticalPoint* film = narrowest_place().second;
@@ -124,6 +136,19 @@ void Simulation::extend_rates(Velocity&& v) {
   vesicle_.extension().fill(vesicle_.band(), work_);
 }
 
+void Simulation::step_stretch(double dt) {
+  StretchField& stretch = *vesicle_.stretch();
+  const SurfaceGeometry& surface = vesicle_.surface();
+  work_.resize(vesicle_.band().size());
+  for (std::size_t i = 0; i < surface.entry().size(); i++)
+    work_[surface.entry()[i]] = stretch.rate(i, surface.KM()[i], vesicle_.velocity(i));
+  vesicle_.extension().complete(0, work_);
+  vesicle_.extension().fill(vesicle_.band(), work_);
+  c_stepper_->predict(vesicle_.extension(), dt, {0, stretch.law().diffusivity()});
+  c_stepper_->apply(stretch.c(), {}, 0);
+  stretch.extend(vesicle_.band(), surface, vesicle_.extension());
+}
+
 /// Adds to the step's increment what leads the constraints to their targets to first order: the
 /// responses to a tension and to a multiplier of the area difference, and a constant. What the last
 /// steps gained beyond first order is expected again. (Constraint forces in the metric of the
@@ -132,48 +157,78 @@ void Simulation::extend_rates(Velocity&& v) {
 void Simulation::apply_constrained(double time) {
   const SurfaceGeometry& surface = vesicle_.surface();
   const Constraints& constraints = vesicle_.constraints();
-  const std::size_t n = surface.size();
-  const ConstPoints p = surface.points();
-  std::vector<double> along[3];
-  auto on_membrane = [&](std::span<const double> nodal, std::vector<double>& values) {
-    SplineView field = vesicle_.phi().view();
-    field.coefficients = nodal.data();
-    values.resize(n);
-    parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
-      kernels().cubic(field, end - begin, {p.x + begin, p.y + begin, p.z + begin}, &values[begin]);
-    });
+  Phases* phases = vesicle_.phases();
+  const int second = second_response();
+  std::vector<double> moved = on_membrane(stepper_.increment());
+  auto change_by = [&](const std::vector<double>& along) {
+    return change_from(
+        vesicle_.moments([&](std::size_t i) { return -along[i] / surface.grad()[i]; }));
   };
-  on_membrane(stepper_.increment(), along[0]);
-  on_membrane(stepper_.response(0), along[1]);
-  if (constraints.is_held(2)) on_membrane(stepper_.response(1), along[2]);
-
-  Eigen::Vector3d constant = Eigen::Vector3d::Zero(), moments[3] = {constant, constant, constant};
-  for (std::size_t i = 0; i < n; i++) {
-    const double w = -surface.weight()[i] / surface.grad()[i];
-    const Eigen::Vector3d effect{w, w * surface.KM()[i], w * surface.K()[i]};
-    constant += effect;
-    for (int m = 0; m < 3; m++)
-      if (!along[m].empty()) moments[m] += along[m][i] * effect;
-  }
-  Eigen::Matrix3d effect;
-  effect << change_from(constant), change_from(moments[1]), change_from(moments[2]);
-  const Eigen::Vector3d factors =
-      constraints.combination(effect, constraints.target(time) - quantities(vesicle_.integrals()) -
-                                          excess_ - change_from(moments[0]));
+  Quantities predicted = change_by(moved);
+  if (phases)
+    predicted[3] += phases->change_of_area(on_membrane(psi_stepper_->increment()), surface);
+  Eigen::Matrix4d effect = Eigen::Matrix4d::Zero();
+  effect.col(0) =
+      change_from(vesicle_.moments([&](std::size_t i) { return -1 / surface.grad()[i]; }));
+  effect.col(1) = change_by(on_membrane(stepper_.response(0)));
+  if (second) effect.col(second) = change_by(on_membrane(stepper_.response(1)));
+  if (phases) effect(3, 3) -= response_dt_ * phases->length(surface);
+  const Eigen::Vector4d factors = constraints.combination(
+      effect, constraints.target(time) - quantities(vesicle_.integrals()) - excess_ - predicted);
   if (!factors.allFinite()) throw RunError("the step is not finite");
-  stepper_.apply(vesicle_.phi(), std::span(factors.data() + 1, 2), factors[0]);
+  const double along[2] = {factors[1], second ? factors[second] : 0};
+  stepper_.apply(vesicle_.phi(), along, factors[0]);
+  if (phases) psi_stepper_->apply(phases->psi(), {}, response_dt_ * factors[3]);
+}
+
+/// A field of coefficients at the samples.
+std::vector<double> Simulation::on_membrane(std::span<const double> coefficients) const {
+  const SurfaceGeometry& surface = vesicle_.surface();
+  const ConstPoints p = surface.points();
+  SplineView field = vesicle_.phi().view();
+  field.coefficients = coefficients.data();
+  std::vector<double> values(surface.size());
+  parallel_for(surface.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    kernels().cubic(field, end - begin, {p.x + begin, p.y + begin, p.z + begin}, &values[begin]);
+  });
+  return values;
+}
+
+/// The multiplier besides the tension along whose response constraints are kept; 0: none.
+int Simulation::second_response() const {
+  const Constraints& constraints = vesicle_.constraints();
+  return constraints.is_held(2) ? 2 : constraints.is_held(3) ? 3 : 0;
+}
+
+ImplicitSymbol Simulation::implicit_symbol() const {
+  const Multipliers& m = vesicle_.multipliers();
+  const double tension = std::max(m[1], m[1] + m[3]) + vesicle_.curvature_tension();
+  const double line = vesicle_.phases() ? vesicle_.phases()->line().tension : 0;
+  return {vesicle_.stiffness(), std::max(0.0, tension) + line};
+}
+
+void Simulation::predict_boundary(double dt) {
+  Phases& phases = *vesicle_.phases();
+  phases.extend_rates(vesicle_.band(), vesicle_.multipliers()[3], vesicle_.extension());
+  psi_stepper_->predict(vesicle_.extension(), dt, {0, phases.line().tension});
 }
 
 /// After phi was changed by other means than a step. Returns the area before it was put back.
 double Simulation::restart() {
   excess_.setZero();
   stepper_.restart();
+  if (psi_stepper_) psi_stepper_->restart();
+  if (c_stepper_) c_stepper_->restart();
   return vesicle_.measure_anew(time());
 }
 
 /// To the state before the step that failed, for a shorter one without history.
 void Simulation::go_back() {
   std::ranges::copy(stepper_.before(), vesicle_.phi().coefficients().begin());
+  if (psi_stepper_)
+    std::ranges::copy(psi_stepper_->before(), vesicle_.phases()->psi().coefficients().begin());
+  if (c_stepper_)
+    std::ranges::copy(c_stepper_->before(), vesicle_.stretch()->c().coefficients().begin());
   broken_ = false;
   restart();
   last_dt_ *= 0.1;
@@ -181,11 +236,12 @@ void Simulation::go_back() {
 }
 
 double Simulation::choose_dt(double latest) const {
-  double dt = last_dt_ == 0 ? control_.first(vesicle_.max_force())
-                            : control_.next(last_dt_, error_, vesicle_.max_speed());
+  double dt = last_dt_ == 0
+                  ? control_.first(vesicle_.max_force())
+                  : control_.next(last_dt_, error_,
+                                  std::max(vesicle_.max_speed(), vesicle_.max_line_speed()));
   dt = std::min(dt, vesicle_.longest_step(time()));
-  if (vesicle_.constraints().turns_at(time()))
-    dt = std::min(dt, control_.first(vesicle_.max_speed()));
+  if (vesicle_.turns_at(time())) dt = std::min(dt, control_.first(vesicle_.max_speed()));
   const double left = latest - time();
   if (dt >= left * (1 - 1e-9)) return left;
   return dt > 0.5 * left ? 0.5 * left : dt;
@@ -206,6 +262,26 @@ double Simulation::step_error() const {
     const int node = band.node()[s];
     const double e = (stepper_.increment()[node] - ratio * stepper_.previous_increment()[node]) /
                      surface.grad()[i];
+    sum += e * e;
+    count++;
+  }
+  return ratio == 0 || count == 0 ? 0 : 2 * std::sqrt(sum / double(count)) / h;
+}
+
+/// The same of psi over the nodes next to the phase boundary.
+double Simulation::boundary_error() const {
+  if (!psi_stepper_) return 0;
+  const BoundaryFeet& feet = vesicle_.phases()->feet();
+  const NarrowBand& band = vesicle_.band();
+  const double ratio = psi_stepper_->step_ratio(), h = grid().spacing;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < band.size(); s++) {
+    if (std::abs(band.distance()[s]) > h || !feet[s].exists() || std::abs(feet[s].distance) > 2 * h)
+      continue;
+    const int node = band.node()[s];
+    const double e =
+        psi_stepper_->increment()[node] - ratio * psi_stepper_->previous_increment()[node];
     sum += e * e;
     count++;
   }

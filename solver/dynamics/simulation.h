@@ -43,11 +43,17 @@ private:
 
   // steps: simulation.cpp
   bool try_step(double dt, double latest);
+  void predict_boundary(double dt);
+  void step_stretch(double dt);
   void apply_constrained(double time);
   template <class Velocity>
   void extend_rates(Velocity&& v);
+  std::vector<double> on_membrane(std::span<const double> coefficients) const;
+  int second_response() const;
+  ImplicitSymbol implicit_symbol() const;
   double choose_dt(double latest) const;
   double step_error() const;
+  double boundary_error() const;
   void go_back();
   double restart();
   void renormalise_if_needed();
@@ -63,6 +69,7 @@ private:
   std::pair<bool, const CriticalPoint*> narrowest_place() const;
   bool broke_film(const Measures& m) const;
   void note_spontaneous_change();
+  void note_domains();
   void note_unresolved();
   void recentre_if_needed();
   void move_box(const std::array<int, 3>& cells);
@@ -77,6 +84,8 @@ private:
   Vesicle vesicle_;
   Gauge gauge_;
   SemiImplicit stepper_;
+  std::optional<SemiImplicit> psi_stepper_;     // with phases
+  std::optional<SemiImplicit> c_stepper_;       // with a stretch modulus
   std::vector<double> work_;                    // a number a band entry
   std::vector<CriticalPoint> inside_, outside_; // near the membrane
   std::string why_not_on_;                      // the next step cannot be made
@@ -88,6 +97,7 @@ private:
   long steps_ = 0, renormalised_ = 0, next_parting_ = 0, next_search_ = 0;
   std::array<int, 3> cells_{}; // by which the box has moved
   Topology topology_;
+  std::vector<Domain> domains_; // of the Ld phase
   Measures measures_;
   std::vector<Event> events_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 // What happens to a membrane besides moving: it parts, ruptures, meets itself, comes near the sides
 // of the box, or becomes finer than the grid.
@@ -19,6 +20,7 @@ constexpr double least_radius = 0.76, least_half_gap = 0.8;
 constexpr double worst_drift = 1e-4;      // of the constraints, after parting
 constexpr int most_cuts = 16;             // at one time
 constexpr int steps_between_attempts = 5; // to part where it would have raised the energy
+constexpr double vanishing_domain = 20;   // squared spacings; smaller ones shrink away
 constexpr double restart_step = 0.03;     // after parting; h^4 / kappa
 } // namespace
 
@@ -38,9 +40,32 @@ Event Simulation::event_now() const {
   Event e;
   e.components_before = e.components_after = measures_.components;
   e.genus_before = e.genus_after = measures_.genus;
+  if (measures_.phases) e.domains_before = e.domains_after = measures_.phases->domains_Ld;
   e.area_before = e.area_cut = measures_.area;
   e.energy_before = e.energy_after = measures_.energy;
   return e;
+}
+
+/// Notes that Ld domains met, parted or shrank away: of two lists of them, the one that only the
+/// first has, and smaller than a few spacings across, is gone.
+void Simulation::note_domains() {
+  if (!vesicle_.phases()) return;
+  std::vector<Domain> now;
+  for (const Domain& d : vesicle_.phases()->domains())
+    if (d.is_Ld) now.push_back(d);
+  const std::vector<Domain> before = std::exchange(domains_, now);
+  if (before.size() == now.size()) return;
+  const bool fewer = now.size() < before.size();
+  auto smallest = std::ranges::min_element(fewer ? before : now, {}, &Domain::area);
+  const double h = grid().spacing;
+  Event e = event_now();
+  e.domains_before = int(before.size());
+  e.domains_after = int(now.size());
+  e.place = smallest->center;
+  e.kind = !fewer                                      ? Event::Kind::domain_parted
+           : smallest->area < vanishing_domain * h * h ? Event::Kind::domain_vanished
+                                                       : Event::Kind::domains_merged;
+  note(e);
 }
 
 /// Says once of each kind that something has become finer than the grid.
@@ -78,7 +103,7 @@ void Simulation::note_unresolved() {
 /// The critical points near the membrane, on either side, the nearest first.
 void Simulation::find_narrow_places() {
   const double h = grid().spacing;
-  const ClosingRule rule{vesicle_.bending().bending_modulus, contact_.rupture_thickness};
+  const ClosingRule rule{vesicle_.stiffness(), contact_.rupture_thickness};
   const std::vector<double> grad = vesicle_.grad_of_entries();
   inside_ = critical_points(vesicle_.phi(), vesicle_.band(), grad, rule.reach(h), true);
   outside_ = critical_points(vesicle_.phi(), vesicle_.band(), grad, rule.reach(h), false);
@@ -88,7 +113,7 @@ void Simulation::find_narrow_places() {
 std::optional<Closing> Simulation::closing_place() const {
   const SurfaceGeometry& surface = vesicle_.surface();
   const double h = grid().spacing;
-  const ClosingRule rule{vesicle_.bending().bending_modulus, contact_.rupture_thickness};
+  const ClosingRule rule{vesicle_.stiffness(), contact_.rupture_thickness};
   for (const CriticalPoint& q : inside_) {
     double speed = 0, grad = 0;
     int count = 0;
@@ -134,7 +159,7 @@ void Simulation::change_topology_if_needed() {
 /// narrow enough to part: a step moves the membrane by a quarter of a spacing at most.
 long Simulation::steps_until_narrow() const {
   const double h = grid().spacing;
-  const ClosingRule rule{vesicle_.bending().bending_modulus, contact_.rupture_thickness};
+  const ClosingRule rule{vesicle_.stiffness(), contact_.rupture_thickness};
   double nearest = rule.reach(h);
   for (const auto* places : {&inside_, &outside_})
     if (!places->empty()) nearest = std::min(nearest, places->front().radius);
@@ -212,7 +237,7 @@ bool Simulation::part_at(const Closing& place) {
     return whole_again();
   }
   const double h = grid().spacing;
-  last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.bending().bending_modulus);
+  last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.stiffness());
   parted.dt = measures_.dt;
   measures_ = parted;
   event.components_after = measures_.components;
@@ -254,6 +279,14 @@ void Simulation::recentre_if_needed() {
 void Simulation::move_box(const std::array<int, 3>& cells) {
   shift(grid(), cells, vesicle_.phi().coefficients());
   stepper_.shift(cells);
+  if (psi_stepper_) {
+    shift(grid(), cells, vesicle_.phases()->psi().coefficients());
+    psi_stepper_->shift(cells);
+  }
+  if (c_stepper_) {
+    shift(grid(), cells, vesicle_.stretch()->c().coefficients());
+    c_stepper_->shift(cells);
+  }
   for (int d = 0; d < 3; d++) cells_[d] += cells[d];
   vesicle_.measure_anew(time());
 }

@@ -9,6 +9,7 @@ SurfaceIntegrals& SurfaceIntegrals::operator+=(const SurfaceIntegrals& other) {
   variation += other.variation;
   volume += other.volume;
   energy += other.energy;
+  area_Ld += other.area_Ld;
   return *this;
 }
 
@@ -29,8 +30,8 @@ SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bendi
           sum.volume += w * (p[0] * n[0] + p[1] * n[1] + p[2] * n[2]) / 3;
           sum.energy += w * bending.density(KM);
         }
-        sum.gram << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
-        sum.variation << f[0], f[1], f[2];
+        sum.gram.topLeftCorner<3, 3>() << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
+        sum.variation << f[0], f[1], f[2], 0;
         return sum;
       });
 }

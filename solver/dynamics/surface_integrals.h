@@ -6,13 +6,15 @@
 
 namespace lamella {
 
-/// Integrals over the membrane that measures and multipliers are made of. The three functions 1,
-/// K_M, K of the surface are what the multipliers P, sigma, sigma_DA push along.
+/// Integrals over the membrane that measures and multipliers are made of. The four functions 1,
+/// K_M, K, q K_M of the surface (q the share of Ld) are what the multipliers push along; without
+/// phases the last is left 0.
 struct SurfaceIntegrals {
-  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();      ///< int g_i g_j dA, g = (1, K_M, K)
-  Eigen::Vector3d variation = Eigen::Vector3d::Zero(); ///< int g_i F dA, F the energy's variation
+  Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();      ///< int g_i g_j dA, g = (1, K_M, K, q K_M)
+  Eigen::Vector4d variation = Eigen::Vector4d::Zero(); ///< int g_i F dA, F the energy's variation
   double volume = 0;                                   ///< 1/3 int p.N dA
   double energy = 0;                                   ///< bending energy
+  double area_Ld = 0;                                  ///< of the Ld phase
 
   double area() const { return gram(0, 0); }
   double int_KM() const { return gram(0, 1); }

@@ -21,6 +21,7 @@ constexpr double force_limit = 1;
 // recorded.
 constexpr double start_drift = 1e-4, negligible_drift = 5e-7, worst_drift = 5e-6;
 constexpr int most_corrections = 12;
+constexpr double dent_loss = 2e-4; // of the volume of a sphere
 constexpr double longest_displacement = 0.3;
 // Spacings; displaced further than that, the membrane needs samples that it did not before. (Where
 // the constraints are delicate, always: curvatures feel to first order that points displaced along
@@ -33,17 +34,23 @@ double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::p
 Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier)
     : bending_{scene.membrane.bending_modulus, scene.membrane.spontaneous_curvature},
       film_{scene.contact.disjoining_pressure, scene.contact.disjoining_range}, constraints_(scene),
-      phi_(scene.grid()), band_(scene.grid(), band_half_width), extension_(scene.grid()) {
+      phi_(scene.grid()), band_(scene.grid(), band_half_width), extension_(scene.grid()),
+      surface_(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside(),
+               scene.has_phases()) {
   std::ranges::copy(start.phi, phi_.coefficients().begin());
   phi_.fit(start.phi, fourier);
+  if (scene.has_phases()) phases_.emplace(scene, start.psi, fourier);
+  if (scene.stretch.modulus > 0)
+    stretch_.emplace(scene.stretch.modulus, scene.grid(), start.c, fourier);
   locate();
   surface_.curvatures(phi_, band_);
-  integrals_ = integrate(surface_, bending_, {});
+  integrate_all(false);
   Quantities begin = quantities(integrals_);
   if (start.exact) {
     begin[0] = start.exact->volume;
     begin[1] = start.exact->area;
   }
+  if (phases_ && scene.volume.constraint == Constraint::ramped) begin[0] *= 1 - leave_sphere();
   // Volume and area first: only then is the area difference that of the shape.
   Scene without = scene;
   without.area_difference = {};
@@ -54,7 +61,34 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier)
   begin[2] = integrals_.int_KM();
   constraints_ = Constraints(scene);
   constraints_.begin(begin);
+  const Quantities corrected = quantities(integrals_);
   measure_forces(0);
+  if (phases_) set_quantities(corrected);
+}
+
+/// A sphere cannot lose volume at a given area, and nothing in its curvature says where to: the
+/// first bit of the way is a dent along the phase boundary, where the line tension would take it.
+/// Returns the share of the volume to be lost there, 0 where the membrane is no sphere.
+double Vesicle::leave_sphere() {
+  const double radius = sphere_radius(integrals_.area());
+  auto lost = [&] { // 1 - reduced volume
+    const double r = sphere_radius(integrals_.area());
+    return 1 - integrals_.volume / (4. / 3 * std::numbers::pi * r * r * r);
+  };
+  if (lost() > dent_loss) return 0;
+  auto dent = [&](double depth) {
+    std::span<double> c = phi_.coefficients();
+    for (std::size_t s = 0; s < band_.size(); s++)
+      c[band_.node()[s]] += depth * band_.taper()[s] * phases_->near_boundary(band_.node()[s]);
+    phi_.update_nodal();
+    locate();
+    surface_.curvatures(phi_, band_);
+    integrate_all(false);
+  };
+  const double first = 0.01 * radius;
+  dent(first);
+  dent(first * (std::sqrt(dent_loss / std::max(lost(), 0.01 * dent_loss)) - 1));
+  return dent_loss;
 }
 
 /// Brings the membrane onto its constraints at a time and finds everything that is known of it.
@@ -63,7 +97,7 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier)
 Quantities Vesicle::measure(double time) {
   locate();
   surface_.curvatures(phi_, band_);
-  integrals_ = integrate(surface_, bending_, {});
+  integrate_all(false);
   const Quantities excess = quantities(integrals_) - constraints_.target(time);
   lead_to_constraints(time);
   return excess;
@@ -80,6 +114,11 @@ double Vesicle::measure_anew(double time) {
 }
 
 void Vesicle::locate() {
+  locate_membrane();
+  if (phases_) phases_->locate(phi_, band_);
+}
+
+void Vesicle::locate_membrane() {
   phi_.update_nodal();
   band_.update(phi_);
   surface_.sample(phi_, band_);
@@ -91,38 +130,53 @@ double Vesicle::drift(double time) const {
   return constraints_.drift(quantities(integrals_), time);
 }
 
-/// Displaces the membrane by combinations of 1, K_M, K until it has the quantities that are held.
+/// Displaces the membrane by combinations of 1, K_M, K, q K_M until it has the quantities that are
+/// held.
 void Vesicle::lead_to_constraints(double time) {
   delicate_ = constraints_.is_delicate(integrals_);
   const double negligible = delicate_ ? worst_drift : negligible_drift; // it would go a long way
   if (drift(time) < negligible) return measure_forces(time);
   set_directions();
-  const Eigen::Matrix3d effect = effect_of_directions();
+  const Eigen::Matrix4d effect = effect_of_directions();
   for (int pass = 0; pass == 0 || (pass < most_corrections && drift(time) > worst_drift); pass++) {
-    displace(constraints_.combination(effect, constraints_.target(time) - quantities(integrals_)));
+    const Quantities now = quantities(integrals_);
+    const Eigen::Vector4d u = constraints_.combination(effect, constraints_.target(time) - now);
+    const bool anew = displace(u);
     measure_forces(time);
+    if (phases_ && !anew) return set_quantities(now + effect * u);
   }
 }
 
-/// The displacements 1, K_M, K of the held quantities; where the constraints are delicate, as phi
-/// takes them: what a change of coefficients moves the membrane by is a little smoother than its
-/// nodal values.
+/// What a small displacement leads to is known better than quadrature tells from points that are no
+/// longer the nearest ones.
+void Vesicle::set_quantities(const Quantities& q) {
+  integrals_.volume = q[0];
+  integrals_.gram(0, 0) = q[1];
+  integrals_.gram(0, 1) = integrals_.gram(1, 0) = q[2];
+  integrals_.area_Ld = q[3];
+}
+
+double Vesicle::direction(int m, std::size_t i) const {
+  const double KM = surface_.KM()[i];
+  return m == 0 ? 1 : m == 1 ? KM : m == 2 ? surface_.K()[i] : phases_->share()[i] * KM;
+}
+
+/// The displacements 1, K_M, K, q K_M of the held quantities; where the constraints are delicate,
+/// as phi takes them: what a change of coefficients moves the membrane by is a little smoother than
+/// its nodal values.
 void Vesicle::set_directions() {
   for (const int m : constraints_.held()) {
     std::vector<double>&nodal = directions_[m].nodal, &moves = directions_[m].moves;
     nodal.resize(band_.size());
     moves.resize(surface_.size());
-    auto function = [&](std::size_t i) {
-      return m == 0 ? 1 : m == 1 ? surface_.KM()[i] : surface_.K()[i];
-    };
     for (std::size_t i = 0; i < surface_.entry().size(); i++)
-      nodal[surface_.entry()[i]] = function(i) * surface_.grad()[i];
+      nodal[surface_.entry()[i]] = direction(m, i) * surface_.grad()[i];
     extension_.complete(0, nodal);
     for (std::size_t s = 0; s < band_.size(); s++) nodal[s] *= band_.taper()[s];
-    if (delicate_)
+    if (delicate_ || phases_)
       evaluate_on_membrane(nodal, moves);
     else
-      for (std::size_t i = 0; i < surface_.size(); i++) moves[i] = function(i);
+      for (std::size_t i = 0; i < surface_.size(); i++) moves[i] = direction(m, i);
   }
 }
 
@@ -142,21 +196,19 @@ void Vesicle::evaluate_on_membrane(std::span<const double> change, std::vector<d
   for (std::size_t s = 0; s < band_.size(); s++) field_[band_.node()[s]] = 0;
 }
 
-Eigen::Matrix3d Vesicle::effect_of_directions() const {
-  Eigen::Matrix3d effect = Eigen::Matrix3d::Zero();
+Eigen::Matrix4d Vesicle::effect_of_directions() const {
+  Eigen::Matrix4d effect = Eigen::Matrix4d::Zero();
   for (const int m : constraints_.held()) {
-    Eigen::Vector3d moments = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < surface_.size(); i++) {
-      const double w = surface_.weight()[i] * directions_[m].moves[i];
-      moments += w * Eigen::Vector3d(1, surface_.KM()[i], surface_.K()[i]);
-    }
-    effect.col(m) = change_from(moments);
+    const std::vector<double>& moves = directions_[m].moves;
+    effect.col(m) = change_from(moments([&](std::size_t i) { return moves[i]; }));
   }
+  if (phases_) effect(with_boundary, with_boundary) -= phase_integrals_.length;
   return effect;
 }
 
 /// A combination of the directions, scaled down to the distance up to which it means something.
-void Vesicle::displace(const Eigen::Vector3d& u) {
+/// True where it was so far that all is found anew.
+bool Vesicle::displace(const Eigen::Vector4d& u) {
   const double longest = longest_displacement * grid().spacing;
   std::vector<double>& moves = work_;
   moves.assign(surface_.size(), 0);
@@ -165,6 +217,7 @@ void Vesicle::displace(const Eigen::Vector3d& u) {
     for (const int m : constraints_.held()) moves[i] += u[m] * directions_[m].moves[i];
     greatest = std::max(greatest, std::abs(moves[i]));
   }
+  if (phases_) greatest = std::max(greatest, std::abs(u[with_boundary]));
   const double scale = greatest > longest ? longest / greatest : 1;
   for (std::size_t i = 0; i < surface_.size(); i++) surface_.displace(i, scale * moves[i], band_);
   std::span<double> c = phi_.coefficients();
@@ -173,25 +226,59 @@ void Vesicle::displace(const Eigen::Vector3d& u) {
     for (const int m : constraints_.held()) change += u[m] * directions_[m].nodal[s];
     c[band_.node()[s]] -= scale * change;
   }
-  if (delicate_ || greatest > far_displacement * grid().spacing) {
-    locate();
-    surface_.curvatures(phi_, band_);
-    set_directions();
+  if (phases_)
+    for (double& p : phases_->psi().coefficients()) p += scale * u[with_boundary];
+  if (!delicate_ && greatest < far_displacement * grid().spacing) return false;
+  locate_membrane();
+  surface_.curvatures(phi_, band_);
+  if (phases_) {
+    phases_->follow(phi_, band_);
+    phases_->sample(band_, surface_);
   }
+  set_directions();
+  return true;
+}
+
+/// `with_forces`: the variation is known.
+void Vesicle::integrate_all(bool with_forces) {
+  const std::span<const double> variation =
+      with_forces ? std::span<const double>(variation_) : std::span<const double>();
+  integrals_ = integrate(surface_, bending_, variation);
+  if (!phases_) return;
+  if (!with_forces) phases_->sample(band_, surface_);
+  phase_integrals_ = phases_->integrate(surface_, variation);
+  const PhaseIntegrals& p = phase_integrals_;
+  integrals_.area_Ld = p.area_Ld;
+  integrals_.gram.row(with_boundary) = p.gram.transpose();
+  integrals_.gram.col(with_boundary) = p.gram;
+  if (!with_forces) return;
+  integrals_.energy = p.bending_Ld + p.bending_Lo;
+  integrals_.gram(with_boundary, with_boundary) += p.length;
+  integrals_.variation[with_boundary] = p.variation + phases_->line_integral_of_force();
 }
 
 void Vesicle::measure_forces(double time) {
   surface_.jets(phi_, band_);
-  const double h = grid().spacing, limit = force_limit * bending_.bending_modulus / (h * h * h);
+  const double h = grid().spacing, limit = force_limit * stiffness() / (h * h * h);
   variation_.resize(surface_.size());
+  if (phases_) {
+    phases_->find_forces(phi_, surface_, time, variation_);
+  } else {
+    for (std::size_t i = 0; i < surface_.size(); i++)
+      variation_[i] = bending_.variation(surface_.KM()[i], surface_.K()[i], surface_.lap_KM()[i]);
+  }
+  if (stretch_) {
+    stretch_->sample(surface_);
+    stretch_->add_variation(surface_, variation_);
+    if (phases_) phases_->add_flow(*stretch_);
+  }
   max_force_ = 0;
-  for (std::size_t i = 0; i < surface_.size(); i++) {
-    const double F = bending_.variation(surface_.KM()[i], surface_.K()[i], surface_.lap_KM()[i]);
-    variation_[i] = std::clamp(F, -limit, limit);
+  for (double& F : variation_) {
     max_force_ = std::max(max_force_, std::abs(F));
+    F = std::clamp(F, -limit, limit);
   }
   if (film_.exists()) push_films_apart();
-  integrals_ = integrate(surface_, bending_, variation_);
+  integrate_all(true);
   multipliers_ = constraints_.multipliers(integrals_, constraints_.rate(time));
   max_speed_ = 0;
   for (std::size_t i = 0; i < surface_.size(); i++)
@@ -211,7 +298,24 @@ void Vesicle::push_films_apart() {
 
 double Vesicle::velocity(std::size_t i) const {
   return -variation_[i] + multipliers_[0] + multipliers_[1] * surface_.KM()[i] +
-         multipliers_[2] * surface_.K()[i];
+         multipliers_[2] * surface_.K()[i] +
+         (phases_ ? multipliers_[3] * phases_->share()[i] * surface_.KM()[i] : 0);
+}
+
+double Vesicle::max_line_speed() const {
+  return phases_ ? phases_->max_line_speed(multipliers_[with_boundary]) : 0;
+}
+
+double Vesicle::stiffness() const {
+  return phases_ ? phases_->stiffest() : bending_.bending_modulus;
+}
+
+double Vesicle::curvature_tension() const {
+  auto of = [](double kappa, double C) { return 0.5 * kappa * C * C; };
+  if (!phases_) return of(bending_.bending_modulus, bending_.spontaneous_curvature);
+  const Phase &ld = phases_->ld(), &lo = phases_->lo();
+  return std::max(of(ld.bending_modulus, ld.spontaneous_curvature),
+                  of(lo.bending_modulus, lo.spontaneous_curvature));
 }
 
 bool Vesicle::set_out(double time) {
@@ -221,11 +325,25 @@ bool Vesicle::set_out(double time) {
 }
 
 double Vesicle::longest_step(double time) const {
-  return std::min(constraints_.longest_step(time), film_.longest_step(most_film_pressure_));
+  double longest =
+      std::min(constraints_.longest_step(time), film_.longest_step(most_film_pressure_));
+  if (phases_ && !phases_->is_curved(time))
+    longest = std::min(longest, phases_->curvature_start_time() - time);
+  return longest;
+}
+
+bool Vesicle::turns_at(double time) const {
+  return constraints_.turns_at(time) ||
+         (phases_ && phases_->is_curved(time) && !phases_->is_curved(time * (1 - 1e-9)));
 }
 
 double Vesicle::energy() const {
-  return integrals_.energy + constraints_.potential(quantities(integrals_)) + film_energy_;
+  const double interfacial =
+      phases_ ? phases_->line_energy(phase_integrals_) + phases_->gaussian_energy(phase_integrals_)
+              : 0;
+  const double stretching = stretch_ ? stretch_->energy(surface_) : 0;
+  return integrals_.energy + interfacial + stretching +
+         constraints_.potential(quantities(integrals_)) + film_energy_;
 }
 
 Measures Vesicle::measures(double time) const {
@@ -246,6 +364,25 @@ Measures Vesicle::measures(double time) const {
   m.area_drift = A / constraints_.target(time)[1] - 1;
   m.volume_drift = constraints_.is_held(0) ? V / constraints_.target(time)[0] - 1 : 0;
   m.max_speed = max_speed_;
+  if (phases_) {
+    PhaseMeasures& p = m.phases.emplace();
+    const PhaseIntegrals& i = phase_integrals_;
+    p.bending_energy_Ld = i.bending_Ld;
+    p.bending_energy_Lo = i.bending_Lo;
+    p.gaussian_energy = phases_->gaussian_energy(i);
+    p.line_energy = phases_->line_energy(i);
+    p.sigma_Ld = multipliers_[1] + multipliers_[3];
+    p.sigma_Lo = multipliers_[1];
+    p.area_Ld = i.area_Ld;
+    p.area_Lo = A - i.area_Ld;
+    p.area_Ld_drift = i.area_Ld / constraints_.target(time)[3] - 1;
+    p.line_length = phases_->boundary().length();
+    p.line_radius = phases_->least_radius();
+    p.max_line_speed = max_line_speed();
+    for (const Domain& d : phases_->domains()) (d.is_Ld ? p.domains_Ld : p.domains_Lo)++;
+    m.sigma = (p.sigma_Ld * p.area_Ld + p.sigma_Lo * p.area_Lo) / A;
+  }
+  if (stretch_) m.stretch = stretch_->measures(surface_);
   const Topology topology = topology_of(grid(), phi_.nodal());
   m.components = topology.components;
   m.genus = topology.genus;

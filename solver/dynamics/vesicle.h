@@ -1,7 +1,9 @@
 #pragma once
 #include "dynamics/constraints.h"
 #include "dynamics/measures.h"
+#include "dynamics/phases.h"
 #include "dynamics/start.h"
+#include "dynamics/stretch_field.h"
 #include "dynamics/surface_integrals.h"
 #include "energy/film.h"
 #include "energy/helfrich.h"
@@ -10,6 +12,7 @@
 #include "levelset/level_set.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,9 +42,13 @@ public:
   /// Normal velocity at a sample (Eq. 80).
   double velocity(std::size_t sample) const;
   double max_speed() const { return max_speed_; }
+  /// Of the phase boundary along the membrane.
+  double max_line_speed() const;
   double max_force() const { return max_force_; }
-  /// What constraints and films allow.
+  /// What constraints, films and the start of spontaneous curvature allow.
   double longest_step(double time) const;
+  /// A ramp begins or ends at this time, or spontaneous curvature sets in.
+  bool turns_at(double time) const;
 
   const Grid& grid() const { return phi_.grid(); }
   LevelSet& phi() { return phi_; }
@@ -52,7 +59,21 @@ public:
   const SurfaceIntegrals& integrals() const { return integrals_; }
   const Multipliers& multipliers() const { return multipliers_; }
   const Constraints& constraints() const { return constraints_; }
-  const Helfrich& bending() const { return bending_; }
+  /// The largest bending modulus.
+  double stiffness() const;
+  /// Bound of kappa/2 C^2.
+  double curvature_tension() const;
+  /// Where the scene has domains.
+  Phases* phases() { return phases_ ? &*phases_ : nullptr; }
+  const Phases* phases() const { return phases_ ? &*phases_ : nullptr; }
+  /// Where the scene has a stretch modulus.
+  StretchField* stretch() { return stretch_ ? &*stretch_ : nullptr; }
+  const StretchField* stretch() const { return stretch_ ? &*stretch_ : nullptr; }
+  /// Function m of 1, K_M, K, q K_M at a sample.
+  double direction(int m, std::size_t sample) const;
+  /// int g_i u dA for a displacement u of the samples, g = (1, K_M, K, q K_M).
+  template <class Displacement>
+  Eigen::Vector4d moments(Displacement&& u) const;
   /// |grad phi| at the nearest points of band entries; 0 where it is not known.
   std::vector<double> grad_of_entries() const;
 
@@ -62,31 +83,51 @@ private:
     std::vector<double> nodal; ///< change of phi at the band entries, tapered
     std::vector<double> moves; ///< the displacement at the samples
   };
+  /// Of the four functions that multipliers push along; the last moves the phase boundary too, by
+  /// -1.
+  static constexpr int directions = 4, with_boundary = 3;
 
+  double leave_sphere();
   void locate();
+  void locate_membrane();
   void lead_to_constraints(double time);
   void set_directions();
   void evaluate_on_membrane(std::span<const double> change, std::vector<double>& moves);
-  Eigen::Matrix3d effect_of_directions() const;
-  void displace(const Eigen::Vector3d& u);
+  Eigen::Matrix4d effect_of_directions() const;
+  bool displace(const Eigen::Vector4d& u);
+  void set_quantities(const Quantities& q);
+  void integrate_all(bool with_forces);
   void measure_forces(double time);
   void push_films_apart();
 
   Helfrich bending_;
   Film film_;
   Constraints constraints_;
+  std::optional<Phases> phases_;
+  std::optional<StretchField> stretch_;
   LevelSet phi_;
   NarrowBand band_;
   Extension extension_;
   SurfaceGeometry surface_;
   SurfaceIntegrals integrals_;
   Multipliers multipliers_ = Multipliers::Zero();
-  std::array<Direction, 3> directions_;
+  PhaseIntegrals phase_integrals_;
+  std::array<Direction, directions> directions_;
   bool delicate_ = false;         // the constraints, as last seen
   Array<double> field_;           // on the grid; 0 off the band
   std::vector<double> variation_; // F at the samples
   std::vector<double> work_;
   double film_energy_ = 0, most_film_pressure_ = 0, max_force_ = 0, max_speed_ = 0;
 };
+
+template <class Displacement>
+Eigen::Vector4d Vesicle::moments(Displacement&& u) const {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (std::size_t i = 0; i < surface_.size(); i++) {
+    const double w = surface_.weight()[i] * u(i), KM = surface_.KM()[i];
+    sum += w * Eigen::Vector4d(1, KM, surface_.K()[i], phases_ ? phases_->share()[i] * KM : 0);
+  }
+  return sum;
+}
 
 } // namespace lamella

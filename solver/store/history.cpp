@@ -102,6 +102,8 @@ Row row_of(Event& e) {
           {"components_after", &e.components_after},
           {"genus_before", &e.genus_before},
           {"genus_after", &e.genus_after},
+          {"domains_before", &e.domains_before},
+          {"domains_after", &e.domains_after},
           {"A_before", &e.area_before},
           {"A_cut", &e.area_cut},
           {"energy_before", &e.energy_before},

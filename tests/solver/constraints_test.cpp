@@ -30,7 +30,7 @@ TEST(Multipliers, GiveTheRatesAskedFor) {
   for (std::size_t i = 0; i < g.size(); i++)
     F[i] = bending.variation(g.KM()[i], g.K()[i], g.lap_KM()[i]);
   const SurfaceIntegrals integrals = integrate(g, bending, F);
-  const Quantities asked{0.7, -1.9, 2.3};
+  const Quantities asked{0.7, -1.9, 2.3, 0};
   for (const Constraint volume : {Constraint::fixed, Constraint::ramped, Constraint::free})
     for (const Constraint difference : {Constraint::fixed, Constraint::ramped, Constraint::free})
       for (const double factor : {0., 1.}) {
@@ -42,7 +42,7 @@ TEST(Multipliers, GiveTheRatesAskedFor) {
         for (std::size_t i = 0; i < g.size(); i++) {
           const double KM = g.KM()[i], K = g.K()[i], w = g.weight()[i];
           const double v = -F[i] + m[0] + m[1] * KM + m[2] * K;
-          found += w * v * Quantities(1, -KM, -2 * K);
+          found += w * v * Quantities(1, -KM, -2 * K, 0);
           scale += w * std::abs(v);
         }
         EXPECT_EQ(constraints.is_held(V), volume != Constraint::free);
@@ -82,7 +82,7 @@ constexpr double volume_unit = 4 * M_PI / 3 * radius * radius * radius,
 
 Quantities with(double reduced_volume, double area_difference) {
   return {volume_unit * reduced_volume, 4 * M_PI * radius * radius,
-          difference_unit * area_difference};
+          difference_unit * area_difference, 0};
 }
 
 Constraints started(const Scene& scene) {
@@ -147,7 +147,7 @@ TEST(Ramps, StepsLandOnEveryTurn) {
     const double step = constraints.longest_step(t);
     ASSERT_GT(step, 0);
     const Quantities change = constraints.target(t + step) - constraints.target(t);
-    EXPECT_TRUE(!constraints.is_held(M) || std::abs(change[M] / difference_unit) <= 1.001e-3)
+    EXPECT_TRUE(!constraints.is_held(M) || std::abs(change[M] / difference_unit) <= 2.501e-3)
         << "in small bits";
     t += step;
     constraints.set_out(t, with(0.8, 1.05));

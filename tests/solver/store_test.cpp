@@ -532,7 +532,21 @@ TEST_F(HistoryStore, ReadsNothingButHistories) {
 class EventStore : public Store {
 protected:
   static Event event() {
-    return {Event::Kind::thin_outside, 1, {2, 3, 4}, 5, 6, 7, 8, 9, 10, 11, 12, 13, {14, 15, 16}};
+    return {Event::Kind::thin_outside,
+            1,
+            {2, 3, 4},
+            5,
+            6,
+            7,
+            8,
+            9,
+            10,
+            11,
+            12,
+            13,
+            14,
+            15,
+            {16, 17, 18}};
   }
 
   fs::path file() const { return folder_ / "events.csv"; }
@@ -540,13 +554,13 @@ protected:
 
 const std::string event_header =
     "t,kind,x,y,z,size,components_before,components_after,genus_before,"
-    "genus_after,A_before,A_cut,energy_before,energy_after,cells_x,"
+    "genus_after,domains_before,domains_after,A_before,A_cut,energy_before,energy_after,cells_x,"
     "cells_y,cells_z";
 
 TEST_F(EventStore, WritesARowForEveryEvent) {
   EventWriter(file()).add(event());
   EXPECT_EQ(content_of(file()),
-            event_header + "\n1,thin_outside,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n");
+            event_header + "\n1,thin_outside,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18\n");
 }
 
 TEST_F(EventStore, ReadsWhatItWrote) {
@@ -570,12 +584,12 @@ TEST_F(EventStore, RefusesEventsThatAreNotFinite) {
 
 TEST_F(EventStore, ReadsNothingButEvents) {
   const auto message = [&](const std::string& kind) {
-    put(file(), event_header + "\n1," + kind + ",2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n");
+    put(file(), event_header + "\n1," + kind + ",2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18\n");
     return message_of([&] { read_events(file()); });
   };
   EXPECT_EQ(message("fission"), "no StoreError");
   for (const char* bad : {"fissions", "", "0"})
-    EXPECT_THAT(message(bad), HasSubstr("csv:2: not a table of events: expected 17 finite values"));
+    EXPECT_THAT(message(bad), HasSubstr("csv:2: not a table of events: expected 19 finite values"));
   put(file(), history_header + "\n");
   EXPECT_THAT(message_of([&] { read_events(file()); }), HasSubstr("csv:1: not a table of events"));
 }

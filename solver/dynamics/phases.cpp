@@ -1,0 +1,412 @@
+#include "dynamics/phases.h"
+
+#include "levelset/gauge.h"
+#include "parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lamella {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Lengths in grid spacings. Half-widths of the strip along the boundary.
+constexpr double line_width = 5, moment_width = 5.5, modulus_width = 3.7;
+// psi is the distance up to here, and then levels off.
+constexpr double linear_until = 5, level_from = 9;
+// Of the boundary: within it psi follows the boundary's motion, beyond it nothing.
+constexpr double follow_until = 4, follow_end = 6.6;
+constexpr double foot_reach = 8;
+
+constexpr double smoothing_length = 1; // spacings; finer content of psi is left to noise_damping()
+constexpr double far_pull = 0.1;       // towards the distance where it does not matter much, a step
+constexpr double inconsistent = 1.5;   // distance from psi: the foot is not that of this boundary
+constexpr double least_spline_symbol = 0.25;
+
+/// The node next to point i, within the box.
+std::size_t node_at(const Grid& grid, ConstPoints points, std::size_t i) {
+  const double x[3] = {points.x[i], points.y[i], points.z[i]};
+  int at[3];
+  for (int d = 0; d < 3; d++)
+    at[d] =
+        std::clamp(int(std::lround((x[d] - grid.origin(d)) / grid.spacing)), 0, grid.nodes[d] - 1);
+  return grid.index(at[0], at[1], at[2]);
+}
+
+Vector3d vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+} // namespace
+
+PhaseIntegrals& PhaseIntegrals::operator+=(const PhaseIntegrals& o) {
+  gram += o.gram;
+  variation += o.variation;
+  area_Ld += o.area_Ld;
+  length += o.length;
+  bending_Ld += o.bending_Ld;
+  bending_Lo += o.bending_Lo;
+  int_K += o.int_K;
+  int_K_Ld += o.int_K_Ld;
+  return *this;
+}
+
+Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier)
+    : h_(scene.grid().spacing), ld_(scene.ld), lo_(scene.lo),
+      curvature_start_time_(scene.curvature_start_time),
+      line_(scene.line), sharp_line_{0, 0, scene.line.torsion_modulus, scene.line.normal_modulus},
+      accurate_(SmearedStep::accurate(line_width * h_)),
+      monotonic_(SmearedStep::monotonic(modulus_width * h_)),
+      of_moments_(SmearedStep::of_moments(moment_width * h_)), fourier_(fourier),
+      psi_(scene.grid()), current_(moduli(0)) {
+  std::vector<double> nodal(psi.size());
+  for (std::size_t i = 0; i < psi.size(); i++) nodal[i] = saturated(psi[i]);
+  std::ranges::copy(nodal, psi_.coefficients().begin());
+  psi_.fit(nodal, fourier, 60);
+  for (int axis = 0; axis < 3; axis++)
+    for (int m = 0; m < (axis == 0 ? fourier.row_modes() : scene.nodes[axis]); m++) {
+      k2_[axis].push_back(fourier.k2(axis, m));
+      symbol_[axis].push_back(std::max(least_spline_symbol, fourier.spline_symbol(axis, m)));
+    }
+}
+
+/// By Gauss and Bonnet kappa_g oint kg dl is, but for a constant, a Gaussian modulus of Ld.
+PhaseModuli Phases::moduli(double time) const {
+  Phase ld = ld_, lo = lo_;
+  ld.gaussian_modulus += line_.geodesic_modulus;
+  if (!is_curved(time)) ld.spontaneous_curvature = lo.spontaneous_curvature = 0;
+  return {ld, lo, accurate_, monotonic_, of_moments_};
+}
+
+double Phases::saturated(double s) const {
+  const double a = std::abs(s) / h_, w = level_from - linear_until;
+  if (a < linear_until) return s;
+  const double u = std::min(1.0, (a - linear_until) / w);
+  return std::copysign((linear_until + w * (u - u * u * u + 0.5 * u * u * u * u)) * h_, s);
+}
+
+double Phases::boundary_taper(double s) const {
+  const double u = (std::abs(s) / h_ - follow_until) / (follow_end - follow_until);
+  return u < 0 ? 1 : u > 1 ? 0 : 0.5 * (1 + std::cos(std::numbers::pi * u));
+}
+
+void Phases::locate(const LevelSet& phi, const NarrowBand& band) {
+  psi_.update_nodal();
+  boundary_.trace(phi, psi_, band);
+  feet_.find(boundary_, phi, band, foot_reach * h_);
+  domains_ = domains_of(band, psi_.nodal());
+  restore_distance(band);
+}
+
+void Phases::follow(const LevelSet& phi, const NarrowBand& band) {
+  psi_.update_nodal();
+  feet_.find(boundary_, phi, band, foot_reach * h_);
+}
+
+/// Pulls psi towards the signed distance from the boundary; the boundary itself keeps its place, as
+/// the value of the change at each node's foot is taken off again. Far from the boundary what
+/// counts is the phase of the membrane there: off it, psi may be that of another place beyond a
+/// side of the box.
+void Phases::restore_distance(const NarrowBand& band) {
+  const Grid& grid = band.grid();
+  const double top = saturated(1e9);
+  std::vector<double> change(band.size(), 0);
+  for (std::size_t i = 0; i < band.size(); i++) {
+    const double psi = psi_.nodal()[band.node()[i]];
+    const BoundaryFeet::Foot& foot = feet_[i];
+    double& c = change[i];
+    if (foot.exists()) {
+      const double off = saturated(foot.distance) - psi, near = boundary_taper(foot.distance);
+      if (std::abs(psi) < follow_until * h_ && std::abs(off) > inconsistent * h_) continue;
+      c = (near + far_pull * (1 - near)) * off;
+    } else {
+      const double there = psi_.nodal()[node_at(grid, band.points(), i)];
+      c = far_pull * (std::copysign(top, there) - psi);
+    }
+    c *= band.taper()[i];
+  }
+  auto source = [&](int k, double* out) {
+    const std::size_t plane = std::size_t(grid.nx()) * grid.ny();
+    std::fill_n(out, plane, 0.0);
+    for (int s = band.plane_begin(k); s < band.plane_begin(k + 1); s++)
+      out[band.node()[s] - k * plane] = change[s];
+  };
+  const double length4 = std::pow(smoothing_length * h_, 4);
+  auto smooth = [&](int ky, int kz, std::complex<double>* row) {
+    const double across = k2_[1][ky] + k2_[2][kz],
+                 scale = 1 / (symbol_[1][ky] * symbol_[2][kz] * double(grid.size()));
+    for (int kx = 0; kx < fourier_.row_modes(); kx++) {
+      const double k2 = across + k2_[0][kx];
+      row[kx] *= scale / (symbol_[0][kx] * (1 + length4 * k2 * k2));
+    }
+  };
+  LevelSet correction(grid);
+  auto sink = [&](int k, const double* in) {
+    const std::size_t plane = std::size_t(grid.nx()) * grid.ny();
+    std::copy_n(in, plane, correction.coefficients().begin() + k * plane);
+  };
+  fourier_.apply(source, smooth, sink);
+  for (std::size_t i = 0; i < band.size(); i++)
+    correction.coefficients()[band.node()[i]] +=
+        band.taper()[i] * noise_damping(grid, psi_.coefficients(), band.node()[i]);
+  std::vector<Vector3d> places;
+  for (const BoundaryPoint& p : boundary_.points()) places.push_back(p.x);
+  std::vector<double> at_boundary;
+  for (const Taylor& t : taylor(correction, places)) at_boundary.push_back(t.value);
+  const std::span<double> c = psi_.coefficients();
+  const std::span<const double> d = correction.coefficients();
+  parallel_for(c.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) c[i] += d[i];
+  });
+  for (std::size_t i = 0; i < band.size(); i++)
+    if (feet_[i].exists())
+      c[band.node()[i]] -=
+          band.taper()[i] * boundary_taper(feet_[i].distance) * feet_[i].value(at_boundary);
+}
+
+void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface) {
+  const std::size_t n = surface.size(), own = surface.entry().size();
+  const double reach =
+      std::max({accurate_.half_width(), monotonic_.half_width(), of_moments_.half_width()});
+  share_.resize(n);
+  moment_share_.resize(n);
+  delta_.assign(n, 0);
+  strip_.clear();
+  std::vector<double> second(n - own);
+  SplineView nodal = psi_.view();
+  nodal.coefficients = psi_.nodal().data();
+  const ConstPoints p = surface.points();
+  kernels().cubic(nodal, n - own, {p.x + own, p.y + own, p.z + own}, second.data());
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < n; i++) {
+    const double about = i < own ? psi_.nodal()[band.node()[surface.entry()[i]]] : second[i - own];
+    share_[i] = moment_share_[i] = about < 0;
+    if (std::abs(about) > reach + 0.5 * h_) continue;
+    StripPoint s{};
+    s.sample = int(i);
+    if (i < own) s.foot = feet_[surface.entry()[i]];
+    strip_.push_back(s);
+    points.push_back(vec(surface.point(i)));
+  }
+  const std::vector<Taylor> psi = taylor(psi_, points);
+  parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; m++) {
+      StripPoint& s = strip_[m];
+      const Vector3d N = vec(surface.normal(s.sample));
+      s.psi = psi[m].value;
+      s.hessian = psi[m].hessian;
+      s.along_N = psi[m].gradient.dot(N);
+      s.gradient = psi[m].gradient - s.along_N * N;
+      s.slope2 = s.gradient.squaredNorm();
+      s.lap = s.hessian.trace() - N.dot(s.hessian * N) + surface.KM()[s.sample] * s.along_N;
+      const SmearedStep::Value v = accurate_.at(s.psi);
+      share_[s.sample] = 1 - v.step;
+      moment_share_[s.sample] = 1 - of_moments_.at(s.psi).step;
+      delta_[s.sample] = v.delta * std::sqrt(s.slope2);
+    }
+  });
+}
+
+void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, double time,
+                         std::span<double> variation) {
+  current_ = moduli(time);
+  find_boundary_force(phi, current_);
+  kappa_.resize(surface.size());
+  C_.resize(surface.size());
+  parallel_for(surface.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      const Phase& phase = share_[i] > 0.5 ? current_.ld() : current_.lo();
+      const Helfrich bending{phase.bending_modulus, phase.spontaneous_curvature};
+      kappa_[i] = phase.bending_modulus;
+      C_[i] = phase.spontaneous_curvature;
+      variation[i] = bending.variation(surface.KM()[i], surface.K()[i], surface.lap_KM()[i]);
+    }
+  });
+  std::vector<Vector3d> points;
+  for (const StripPoint& s : strip_) points.push_back(vec(surface.point(s.sample)));
+  const std::vector<Taylor> at_phi = taylor(phi, points);
+  std::vector<Vector3d> line_force;
+  std::vector<double> force_N, couple;
+  const bool sharp = sharp_line_.torsion != 0 || sharp_line_.normal != 0;
+  if (sharp) {
+    line_force = sharp_line_.forces(boundary_);
+    for (std::size_t j = 0; j < line_force.size(); j++) {
+      force_N.push_back(line_force[j].dot(boundary_.points()[j].N));
+      couple.push_back(sharp_line_.couple(boundary_.points()[j]));
+    }
+  }
+  parallel_for(strip_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; m++) {
+      const StripPoint& s = strip_[m];
+      const int i = s.sample;
+      const Vector3d N = vec(surface.normal(i)), g = s.gradient;
+      const Matrix3d P = Matrix3d::Identity() - N * N.transpose();
+      const Matrix3d B = -P * at_phi[m].hessian * P / surface.grad()[i];
+      const Matrix3d hess = P * s.hessian * P + s.along_N * B;
+      const double KM = surface.KM()[i], K = surface.K()[i], B_gg = g.dot(B * g),
+                   kn = s.slope2 > 0 ? KM - B_gg / s.slope2 : 0;
+      const PhaseModuli::Value v = current_.at(s.psi);
+      const auto& [k, k1, k2] = v.kappa;
+      const auto& [C, C1, C2] = v.C;
+      kappa_[i] = k;
+      C_[i] = C;
+      const double Q1 = k1 * C + k * C1, Q2 = k2 * C + 2 * k1 * C1 + k * C2;
+      const double lap_moment = k * surface.lap_KM()[i] + 2 * k1 * g.dot(vec(surface.grad_KM(i))) +
+                                (KM * k1 - Q1) * s.lap + (KM * k2 - Q2) * s.slope2;
+      double F = lap_moment + k * (0.5 * KM * KM * KM - 2 * KM * K + 2 * C * K - 0.5 * C * C * KM);
+      F -= line_.tension * delta_[i] * kn;
+      F -= v.kappa_G.d1 * (B * hess).trace() + v.kappa_G.d2 * B_gg -
+           KM * (v.kappa_G.d1 * s.lap + v.kappa_G.d2 * s.slope2);
+      if (sharp && s.foot.exists()) {
+        const SmearedStep::Value d = accurate_.at(s.psi);
+        F -= delta_[i] * s.foot.value(force_N) +
+             s.foot.value(couple) * (d.slope * s.slope2 + d.delta * s.lap);
+      }
+      variation[i] = F;
+    }
+  });
+}
+
+/// The force along n on each point of the boundary. What the strip does as a whole is summed along
+/// the geodesic through the point, by Gauss's rule.
+void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli) {
+  const std::span<const BoundaryPoint> curve = boundary_.points();
+  const std::vector<Vector3d> sharp = sharp_line_.forces(boundary_);
+  force_.resize(curve.size());
+  for (std::size_t j = 0; j < curve.size(); j++)
+    force_[j] = line_.tension * curve[j].kg + sharp[j].dot(curve[j].n);
+  if (!moduli.differ()) return;
+  constexpr int rule = 8;
+  constexpr double node[rule] = {-.9602898564975363, -.7966664774136267, -.5255324099163290,
+                                 -.1834346424956498, .1834346424956498,  .5255324099163290,
+                                 .7966664774136267,  .9602898564975363},
+                   weight[rule] = {.1012285362903763, .2223810344533745, .3137066458778873,
+                                   .3626837833783620, .3626837833783620, .3137066458778873,
+                                   .2223810344533745, .1012285362903763};
+  const double reach =
+      std::max({accurate_.half_width(), monotonic_.half_width(), of_moments_.half_width()});
+  std::vector<Vector3d> points;
+  for (const BoundaryPoint& c : curve)
+    for (const double u : node) {
+      const double s = u * reach;
+      points.push_back(c.x + s * c.n + 0.5 * s * s * c.B_perp * c.N);
+    }
+  const std::vector<Taylor> near = taylor(phi, points);
+  for (std::size_t i = 0; i < points.size(); i++)
+    points[i] -= near[i].value / near[i].gradient.squaredNorm() * near[i].gradient;
+  const std::vector<Taylor> f = taylor(phi, points), psi = taylor(psi_, points);
+  for (std::size_t j = 0; j < curve.size(); j++)
+    for (int q = 0; q < rule; q++) {
+      const std::size_t i = rule * j + q;
+      const CurveGeometry c = curve_geometry(f[i], psi[i]);
+      const PhaseModuli::Value v = moduli.at(psi[i].value);
+      const double s = node[q] * reach, off = c.KM() - v.C.f;
+      const double density =
+          0.5 * v.kappa.d1 * off * off - v.kappa.f * v.C.d1 * off + v.kappa_G.d1 * c.K();
+      if (std::isfinite(density)) force_[j] += weight[q] * reach * density * (1 - curve[j].kg * s);
+    }
+}
+
+void Phases::add_flow(const StretchField& stretch) {
+  std::vector<Vector3d> x, n;
+  for (const BoundaryPoint& p : boundary_.points()) {
+    x.push_back(p.x);
+    n.push_back(p.n);
+  }
+  const std::vector<double> flow = stretch.flow_across(x, n);
+  for (std::size_t j = 0; j < flow.size(); j++) force_[j] += flow[j];
+}
+
+PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface,
+                                 std::span<const double> variation) const {
+  return parallel_sum<PhaseIntegrals>(
+      surface.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        PhaseIntegrals sum;
+        for (std::size_t i = begin; i < end; i++) {
+          const double w = surface.weight()[i], KM = surface.KM()[i], K = surface.K()[i],
+                       q = share_[i];
+          if (w == 0) continue;
+          sum.gram += w * q * KM * Eigen::Vector4d(1, KM, K, q * KM);
+          sum.area_Ld += w * q;
+          sum.length += w * delta_[i];
+          sum.int_K_Ld += w * moment_share_[i] * K;
+          sum.int_K += w * K;
+          if (variation.empty()) continue;
+          sum.variation += w * q * KM * variation[i];
+          const double off = KM - C_[i], density = 0.5 * kappa_[i] * off * off;
+          sum.bending_Ld += w * q * density;
+          sum.bending_Lo += w * (1 - q) * density;
+        }
+        return sum;
+      });
+}
+
+double Phases::change_of_area(std::span<const double> psi, const SurfaceGeometry& surface) const {
+  double sum = 0;
+  for (const StripPoint& s : strip_)
+    sum -= surface.weight()[s.sample] * accurate_.at(s.psi).delta * psi[s.sample];
+  return sum;
+}
+
+double Phases::length(const SurfaceGeometry& surface) const {
+  double sum = 0;
+  for (const StripPoint& s : strip_) sum += surface.weight()[s.sample] * delta_[s.sample];
+  return sum;
+}
+
+double Phases::gaussian_energy(const PhaseIntegrals& i) const {
+  return ld_.gaussian_modulus * i.int_K_Ld + lo_.gaussian_modulus * (i.int_K - i.int_K_Ld);
+}
+
+/// oint kg dl = int_Ld K dA - 2 pi chi, with the integral smeared as the force is: the boundary
+/// itself tells chi.
+double Phases::line_energy(const PhaseIntegrals& i) const {
+  constexpr double turn = 2 * std::numbers::pi;
+  const double kg = boundary_.integral([](const CurveGeometry& c) { return c.kg; });
+  const double chi = std::round((i.int_K_Ld - kg) / turn);
+  return line_.tension * boundary_.length() + line_.geodesic_modulus * (i.int_K_Ld - turn * chi) +
+         sharp_line_.energy(boundary_);
+}
+
+double Phases::line_integral_of_force() const {
+  double sum = 0;
+  for (std::size_t j = 0; j < force_.size(); j++) sum += boundary_.points()[j].weight * force_[j];
+  return sum;
+}
+
+double Phases::least_radius() const {
+  double least = 0;
+  for (std::size_t c = 0; c < boundary_.curves(); c++) {
+    double length = 0;
+    for (const BoundaryPoint& p : boundary_.curve(c)) length += p.weight;
+    if (c == 0 || length < least) least = length;
+  }
+  return least / (2 * std::numbers::pi);
+}
+
+double Phases::near_boundary(int node) const {
+  const double u = psi_.nodal()[node] / saturated(1e9);
+  return 0.5 * (1 + std::cos(std::numbers::pi * std::clamp(u, -1.0, 1.0)));
+}
+
+double Phases::max_line_speed(double multiplier) const {
+  double most = 0;
+  for (const double f : force_) most = std::max(most, std::abs(f - multiplier));
+  return most;
+}
+
+void Phases::extend_rates(const NarrowBand& band, double multiplier, Extension& extension) {
+  rates_.assign(band.size(), 0);
+  weights_.assign(band.size(), 0);
+  for (std::size_t i = 0; i < band.size(); i++) {
+    const BoundaryFeet::Foot& foot = feet_[i];
+    if (!foot.exists()) continue;
+    rates_[i] = multiplier - foot.value(force_); // |grad_s psi| = 1
+    weights_[i] = band.taper()[i] * boundary_taper(foot.distance);
+  }
+  extension.fill(band, rates_, weights_);
+}
+
+} // namespace lamella

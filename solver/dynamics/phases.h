@@ -1,0 +1,139 @@
+#pragma once
+#include "dynamics/measures.h"
+#include "dynamics/stretch_field.h"
+#include "energy/helfrich.h"
+#include "energy/line.h"
+#include "energy/phase_moduli.h"
+#include "geometry/boundary_feet.h"
+#include "geometry/surface_geometry.h"
+#include "levelset/domains.h"
+#include "levelset/extension.h"
+#include "levelset/level_set.h"
+#include "scene/scene.h"
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace lamella {
+
+/// Integrals over the membrane that the phases add; q = 1 in Ld, 0 in Lo, smooth across the
+/// boundary.
+struct PhaseIntegrals {
+  Eigen::Vector4d gram = Eigen::Vector4d::Zero(); ///< int q K_M (1, K_M, K, q K_M) dA
+  double variation = 0;                           ///< int q K_M F dA
+  double area_Ld = 0, length = 0;
+  double bending_Ld = 0, bending_Lo = 0, int_K = 0, int_K_Ld = 0;
+
+  PhaseIntegrals& operator+=(const PhaseIntegrals& other);
+};
+
+/// The two lipid phases of a membrane: Ld = {psi < 0} and Lo = {psi > 0}, where they meet, and what
+/// that does to both.
+///
+/// The boundary is seen in two ways. As polylines it has its own geometry, feels the force along
+/// the membrane and tells the distance from it. For the membrane it is a strip of a few spacings in
+/// which moduli change smoothly and the line force is spread: functions of psi, varied exactly, so
+/// that jumps of moment and couple at the boundary come about by themselves.
+class Phases {
+public:
+  Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier);
+
+  /// Finds the boundary on a membrane that moved, and brings psi back towards the distance from it.
+  void locate(const LevelSet& phi, const NarrowBand& band);
+  /// The same after small changes, with the boundary that is known.
+  void follow(const LevelSet& phi, const NarrowBand& band);
+  /// Finds the phases of the samples: all that integrals of the phases need.
+  void sample(const NarrowBand& band, const SurfaceGeometry& surface);
+  /// The variation F of the energy (a normal displacement u changes it by int F u dA) at the
+  /// samples, and the force on the boundary. sample() up to date, fourth derivatives known.
+  void find_forces(const LevelSet& phi, const SurfaceGeometry& surface, double time,
+                   std::span<double> variation);
+
+  /// Lets the boundary be carried along by the flow of lipid.
+  void add_flow(const StretchField& stretch);
+
+  /// `variation` empty: without that integral.
+  PhaseIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation) const;
+  /// Of all line moduli; of the Gaussian moduli.
+  double line_energy(const PhaseIntegrals& integrals) const;
+  double gaussian_energy(const PhaseIntegrals& integrals) const;
+
+  /// oint g.n dl: what the boundary's own force does to the area of Ld.
+  double line_integral_of_force() const;
+
+  /// First-order change of the area of Ld where psi changes by so much at the samples.
+  double change_of_area(std::span<const double> psi, const SurfaceGeometry& surface) const;
+  /// Of the boundary.
+  double length(const SurfaceGeometry& surface) const;
+
+  /// Share of Ld, 1 - H, at the samples.
+  std::span<const double> share() const { return share_; }
+  /// delta(psi) |grad_s psi| at the samples: int f delta dA = oint f dl.
+  std::span<const double> delta() const { return delta_; }
+
+  /// Rates of psi at which the boundary moves with its force less `multiplier`, carried into the
+  /// box.
+  void extend_rates(const NarrowBand& band, double multiplier, Extension& extension);
+
+  /// As of the last locate().
+  const std::vector<Domain>& domains() const { return domains_; }
+  /// Length / 2 pi of the shortest closed boundary; 0 where there is none.
+  double least_radius() const;
+  /// 1 at nodes on the boundary, falling smoothly to 0 several spacings from it.
+  double near_boundary(int node) const;
+
+  LevelSet& psi() { return psi_; }
+  const LevelSet& psi() const { return psi_; }
+  const PhaseBoundary& boundary() const { return boundary_; }
+  const BoundaryFeet& feet() const { return feet_; }
+  std::span<const double> force() const { return force_; }
+  double max_line_speed(double multiplier) const;
+  const Line& line() const { return line_; }
+  /// Spontaneous curvatures are 0 before.
+  double curvature_start_time() const { return curvature_start_time_; }
+  bool is_curved(double time) const { return time >= curvature_start_time_ * (1 - 1e-12); }
+  double stiffest() const { return std::max(ld_.bending_modulus, lo_.bending_modulus); }
+  const Phase& ld() const { return ld_; }
+  const Phase& lo() const { return lo_; }
+
+private:
+  /// A sample in the strip along the boundary.
+  struct StripPoint {
+    int sample;
+    double psi;
+    Eigen::Matrix3d hessian;
+    double along_N;           ///< N.grad psi
+    Eigen::Vector3d gradient; ///< along the membrane
+    double slope2;            ///< its square
+    double lap;               ///< Lap_s psi
+    BoundaryFeet::Foot foot;
+  };
+
+  PhaseModuli moduli(double time) const;
+  void restore_distance(const NarrowBand& band);
+  void find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli);
+  double saturated(double s) const;
+  double boundary_taper(double s) const;
+
+  double h_;
+  Phase ld_, lo_;
+  double curvature_start_time_;
+  Line line_;
+  LineEnergy sharp_line_; // what is not smeared by itself
+  SmearedStep accurate_, monotonic_, of_moments_;
+  Fourier& fourier_;
+  std::vector<double> k2_[3], symbol_[3]; // along each axis
+  LevelSet psi_;
+  PhaseBoundary boundary_;
+  BoundaryFeet feet_; // of the band's entries
+  std::vector<Domain> domains_;
+  std::vector<StripPoint> strip_;
+  std::vector<double> share_, delta_, moment_share_, kappa_, C_;
+  std::vector<double> force_; // along n, at the boundary's points
+  std::vector<double> rates_, weights_;
+  PhaseModuli current_;
+};
+
+} // namespace lamella
