@@ -2,10 +2,9 @@
 
 #include "fields/report.h"
 #include "fields/scene_properties.h"
+#include "fields/serve.h"
 #include "fields/start_image.h"
-#include "fields/state_data.h"
 #include "fields/stored_frame.h"
-#include "fields/time_request.h"
 #include "fields/trajectory.h"
 #include "scene/scene_toml.h"
 
@@ -14,7 +13,6 @@
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkTable.h>
 
 #include <array>
 #include <sstream>
@@ -44,15 +42,13 @@ public:
   Run(const lamella::Scene& scene, const lamella::ImageVesicle& vesicle, vtkMTimeType inputTime)
     : InputTime(inputTime)
     , Parameters(lamella::to_toml(scene))
-    , Scene(scene)
     , Center(vesicle.center)
-    , Trajectory(Begin(this->Scene, lamella::start_frame(vesicle)))
+    , Trajectory(Begin(scene, lamella::start_frame(vesicle)))
   {
   }
 
   vtkMTimeType InputTime;
   std::string Parameters;
-  lamella::Scene Scene;
   lamella::Vec3 Center;
   lamella::Trajectory Trajectory;
 };
@@ -155,14 +151,8 @@ int vtkVesicleDynamics::RequestData(
     [&]
     {
       this->BeginRunIfNeeded(*vtkImageData::GetData(input[0]));
-      lamella::Trajectory& trajectory = this->Current->Trajectory;
-      const double time = lamella::requested_time(*request, *output);
-      const lamella::State state = trajectory.at(time, lamella::until_aborted(this, time));
-      lamella::fill_state(*vtkImageData::GetData(output, 0), state.frame, state.measures,
-        this->Current->Scene, this->Current->Center);
-      lamella::fill_history(
-        *vtkTable::GetData(output, 1), trajectory.history(), state.frame.time);
-      lamella::report_failure(this, trajectory, time);
+      lamella::serve(
+        this, this->Current->Trajectory, this->Current->Center, *request, *output);
     });
 }
 

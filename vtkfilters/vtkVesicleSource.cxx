@@ -4,14 +4,12 @@
 #include "fields/image.h"
 #include "fields/report.h"
 #include "fields/scene_properties.h"
+#include "fields/serve.h"
 
 #include <vtkImageData.h>
-#include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 
-#include <algorithm>
 #include <array>
 #include <sstream>
 
@@ -72,18 +70,8 @@ vtkVesicleSource::~vtkVesicleSource() = default;
 int vtkVesicleSource::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
-  vtkInformation* info = output->GetInformationObject(0);
-  const lamella::Grid grid = this->Scene->grid();
-  int extent[6];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    extent[2 * axis] = 0;
-    extent[2 * axis + 1] = std::max(1, grid.nodes[axis]) - 1; // nonsense is refused with the data
-  }
-  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
-  info->Set(vtkDataObject::ORIGIN(), grid.origin(0), grid.origin(1), grid.origin(2));
-  info->Set(vtkDataObject::SPACING(), grid.spacing, grid.spacing, grid.spacing);
-  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_DOUBLE, 1);
+  // Nonsense is refused with the data.
+  lamella::offer_grid(*output->GetInformationObject(0), this->Scene->grid());
   return 1;
 }
 

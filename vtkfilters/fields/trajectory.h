@@ -39,6 +39,7 @@ public:
   /// Why the run cannot be continued beyond time(); nothing where it can, or ended by its rules.
   const std::optional<std::string>& failure() const { return failure_; }
   double time() const { return simulation_.time(); }
+  const Scene& scene() const { return scene_; }
 
 private:
   bool advance(std::size_t stored, const GoOn& go_on);

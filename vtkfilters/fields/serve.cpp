@@ -1,6 +1,10 @@
-#include "fields/time_request.h"
+#include "fields/serve.h"
 
+#include "fields/state_data.h"
+
+#include <vtkImageData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkTable.h>
 
 #include <fmt/format.h>
 
@@ -23,6 +27,23 @@ void offer_times(vtkInformationVector& output, const std::vector<double>& times)
   }
 }
 
+void withdraw_times(vtkInformationVector& output) {
+  for (int port = 0; port < output.GetNumberOfInformationObjects(); ++port) {
+    output.GetInformationObject(port)->Remove(Pipeline::TIME_STEPS());
+    output.GetInformationObject(port)->Remove(Pipeline::TIME_RANGE());
+  }
+}
+
+void offer_grid(vtkInformation& output, const Grid& grid, const Vec3& center) {
+  int extent[6];
+  for (int a = 0; a < 3; ++a) extent[2 * a] = 0, extent[2 * a + 1] = std::max(1, grid.nodes[a]) - 1;
+  output.Set(Pipeline::WHOLE_EXTENT(), extent, 6);
+  output.Set(vtkDataObject::ORIGIN(), grid.origin(0) + center[0], grid.origin(1) + center[1],
+             grid.origin(2) + center[2]);
+  output.Set(vtkDataObject::SPACING(), grid.spacing, grid.spacing, grid.spacing);
+  vtkDataObject::SetPointDataActiveScalarInfo(&output, VTK_DOUBLE, 1);
+}
+
 double requested_time(vtkInformation& request, vtkInformationVector& output) {
   const int port = std::max(0, request.Get(Pipeline::FROM_OUTPUT_PORT()));
   vtkInformation* info = output.GetInformationObject(port);
@@ -37,7 +58,13 @@ Trajectory::GoOn until_aborted(vtkAlgorithm* self, double time) {
   };
 }
 
-void report_failure(vtkAlgorithm* self, const Trajectory& trajectory, double time) {
+void serve(vtkAlgorithm* self, Trajectory& trajectory, const Vec3& center, vtkInformation& request,
+           vtkInformationVector& output) {
+  const double time = requested_time(request, output);
+  const State state = trajectory.at(time, until_aborted(self, time));
+  fill_state(*vtkImageData::GetData(&output, 0), state.frame, state.measures, trajectory.scene(),
+             center);
+  fill_history(*vtkTable::GetData(&output, 1), trajectory.history(), state.frame.time);
   if (trajectory.failure() && time > trajectory.time())
     vtkErrorWithObjectMacro(self, << fmt::format("the run stopped at t = {:.6g}: {}",
                                                  trajectory.time(), *trajectory.failure()));

@@ -1,0 +1,65 @@
+#include "fields/run_files.h"
+
+#include "error.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <regex>
+
+namespace lamella {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// The path itself or the nearest folder around it, up to that around frames/, which holds a run.
+std::optional<fs::path> folder_around(const fs::path& path) {
+  fs::path folder = fs::absolute(path).lexically_normal();
+  for (int level = 0; level < 3; ++level, folder = folder.parent_path())
+    if (is_file(folder / "scene.toml") && is_file(folder / "history.csv")) return folder;
+  return {};
+}
+
+/// What write_series() wrote.
+std::vector<SeriesEntry> read_series(const fs::path& file) {
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::regex entry(R"re(\{"name": "([^"\\]+)", "time": ([^}]+)\})re");
+  std::vector<SeriesEntry> entries;
+  for (std::sregex_iterator at(text.begin(), text.end(), entry), end; at != end; ++at) {
+    const std::string number = (*at)[2];
+    double time = 0;
+    const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), time);
+    if (error != std::errc() || rest != number.data() + number.size())
+      throw StoreError(fmt::format("{}: \"{}\" is not a time", file.string(), number));
+    entries.push_back({(file.parent_path() / (*at)[1].str()).string(), time});
+  }
+  return entries;
+}
+
+} // namespace
+
+RunFiles find_run_files(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored))
+    throw StoreError(fmt::format("{}: no such file or folder", path.string()));
+  const std::optional<fs::path> folder = folder_around(path);
+  if (!folder)
+    throw StoreError(fmt::format("{}: neither the folder of a run nor in one; such a folder, as "
+                                 "\"lamella run\" makes it, holds scene.toml and history.csv",
+                                 path.string()));
+  const fs::path series = *folder / "frames" / "frames.hdf.series";
+  RunFiles run{*folder / "scene.toml", *folder / "history.csv", read_series(series)};
+  if (run.frames.empty())
+    throw StoreError(fmt::format("{}: the run has no frames", folder->string()));
+  return run;
+}
+
+} // namespace lamella

@@ -1,0 +1,61 @@
+#include "fields/scene_start.h"
+
+#include "error.h"
+#include "fields/run_files.h"
+#include "scene/builtin.h"
+#include "scene/scene_toml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lamella {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_builtin(const std::string& name) {
+  return std::ranges::any_of(builtin_scenes(),
+                             [&](const BuiltinScene& scene) { return scene.name == name; });
+}
+
+/// The path of a frame, or of the last one of a run; the name of a built-in scene as it is.
+std::string find_frame(const fs::path& home, const std::string& name) {
+  const fs::path file = home / name;
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) return find_run_files(file).frames.back().file;
+  return is_builtin(name) && !fs::exists(file, ignored) ? name : fs::absolute(file).string();
+}
+
+} // namespace
+
+Scene open_scene(const std::string& name, const std::vector<std::string>& overrides) {
+  std::error_code ignored;
+  const fs::path file = name;
+  const bool builtin = !fs::exists(file, ignored) && !file.has_parent_path() &&
+                       file.extension() != ".toml"; // what that is not, it says
+  Scene scene = builtin ? builtin_scene(name, overrides) : read_scene(name, overrides);
+  const fs::path home = file.parent_path();
+  if (scene.shape.kind == ShapeKind::frame) scene.shape.file = find_frame(home, scene.shape.file);
+  if (!scene.domains.file.empty()) scene.domains.file = find_frame(home, scene.domains.file);
+  return scene;
+}
+
+std::unique_ptr<StoredFrame> run_start_of(Scene& scene, const Trajectory::GoOn& go_on) {
+  if (scene.shape.kind != ShapeKind::frame || !is_builtin(scene.shape.file)) return nullptr;
+  Scene earlier = builtin_scene(scene.shape.file);
+  earlier.nodes = scene.nodes;
+  earlier.half_width = scene.half_width;
+  earlier.output.frames = 2;
+  validate(earlier);
+  Trajectory trajectory(earlier);
+  const State end = trajectory.at(earlier.end_time, go_on);
+  if (trajectory.failure())
+    throw RunError(fmt::format("{}, where the scene starts, stopped at t = {:.6g}: {}",
+                               earlier.name, trajectory.time(), *trajectory.failure()));
+  auto file = std::make_unique<StoredFrame>(end.frame);
+  scene.shape.file = file->path();
+  return file;
+}
+
+} // namespace lamella

@@ -1,0 +1,125 @@
+#include "vtkVesicleSceneReader.h"
+
+#include "fields/image.h"
+#include "fields/report.h"
+#include "fields/scene_start.h"
+#include "fields/serve.h"
+#include "scene/scene_toml.h"
+
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+vtkStandardNewMacro(vtkVesicleSceneReader);
+
+/** A run, and the scene as it was opened. */
+class vtkVesicleSceneReader::Run
+{
+public:
+  Run(lamella::Scene scene, const lamella::Trajectory::GoOn& goOn)
+    : Parameters(lamella::to_toml(scene))
+    , Start(lamella::run_start_of(scene, goOn))
+    , Trajectory(scene)
+  {
+  }
+
+  std::string Parameters;
+  std::unique_ptr<lamella::StoredFrame> Start;
+  lamella::Trajectory Trajectory;
+};
+
+vtkVesicleSceneReader::vtkVesicleSceneReader()
+{
+  this->SetNumberOfInputPorts(0);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkVesicleSceneReader::~vtkVesicleSceneReader() = default;
+
+void vtkVesicleSceneReader::AddOverride(const char* setting)
+{
+  this->Overrides.emplace_back(setting ? setting : "");
+  this->Modified();
+}
+
+void vtkVesicleSceneReader::RemoveAllOverrides()
+{
+  this->Overrides.clear();
+  this->Modified();
+}
+
+int vtkVesicleSceneReader::GetNumberOfOverrides()
+{
+  return static_cast<int>(this->Overrides.size());
+}
+
+int vtkVesicleSceneReader::CanReadFile(const char* name)
+{
+  try
+  {
+    lamella::open_scene(name ? name : "", {});
+    return 1;
+  }
+  catch (const std::exception&)
+  {
+    return 0;
+  }
+}
+
+int vtkVesicleSceneReader::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkImageData" : "vtkTable");
+  return 1;
+}
+
+/** What is wrong with the scene is said with the data. */
+int vtkVesicleSceneReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  lamella::offer_grid(*output->GetInformationObject(0), lamella::Scene().grid());
+  lamella::withdraw_times(*output);
+  try
+  {
+    const lamella::Scene scene = lamella::open_scene(this->FileName, this->Overrides);
+    lamella::offer_grid(*output->GetInformationObject(0), scene.grid());
+    lamella::offer_times(*output, lamella::stored_times(scene));
+  }
+  catch (const std::exception&)
+  {
+  }
+  return 1;
+}
+
+int vtkVesicleSceneReader::RequestData(
+  vtkInformation* request, vtkInformationVector**, vtkInformationVector* output)
+{
+  return lamella::reporting(this,
+    [&]
+    {
+      if (this->FileName.empty())
+      {
+        throw lamella::InputError("no FileName; a scene file (.toml) is needed, or the name of a "
+                                  "built-in scene");
+      }
+      const lamella::Scene scene = lamella::open_scene(this->FileName, this->Overrides);
+      if (!this->Current || this->Current->Parameters != lamella::to_toml(scene))
+      {
+        this->Current.reset();
+        this->Current =
+          std::make_unique<Run>(scene, lamella::until_aborted(this, scene.end_time));
+      }
+      lamella::serve(this, this->Current->Trajectory, {}, *request, *output);
+    });
+}
+
+void vtkVesicleSceneReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+  for (const std::string& setting : this->Overrides)
+  {
+    os << indent << "Override: " << setting << "\n";
+  }
+}

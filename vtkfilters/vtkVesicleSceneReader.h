@@ -1,0 +1,72 @@
+/**
+ * @class vtkVesicleSceneReader
+ * @brief a scene file as a time-varying image, computed as it is looked at
+ *
+ * Opens a scene (.toml, docs/scene-format.md), or one of those that are built in, and gives its states
+ * as vtkVesicleDynamics does: at the scene's stored times and any time between, computed when they
+ * are asked for and kept. They are those that `lamella run` stores. A scene that starts from the end
+ * of a built-in one runs that first.
+ *
+ * Output 0: vtkImageData with phi, psi and c; output 1: vtkTable, the history. Arrays, field data,
+ * progress, aborting and errors are those of vtkVesicleDynamics, see there. A mistake in the scene is
+ * an error with file, line, key and what is allowed; there are then no times.
+ *
+ * @sa vtkVesicleDynamics vtkVesicleRunReader
+ */
+#ifndef vtkVesicleSceneReader_h
+#define vtkVesicleSceneReader_h
+
+#include "vtkLamellaFiltersModule.h" // for the export macro
+
+#include <vtkImageAlgorithm.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class VTKLAMELLAFILTERS_EXPORT vtkVesicleSceneReader : public vtkImageAlgorithm
+{
+public:
+  static vtkVesicleSceneReader* New();
+  vtkTypeMacro(vtkVesicleSceneReader, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** A scene file, or the name of a built-in scene (`lamella scenes` lists them). */
+  vtkSetStdStringFromCharMacro(FileName);
+  vtkGetCharFromStdStringMacro(FileName);
+  ///@}
+
+  ///@{
+  /** "section.key=value", in place of what the file says, as `--set` of `lamella run`; the last one
+   * wins. */
+  void AddOverride(const char* setting);
+  void RemoveAllOverrides();
+  int GetNumberOfOverrides();
+  ///@}
+
+  /** Whether a file is a valid scene: 1 or 0. */
+  static int CanReadFile(const char* name);
+
+protected:
+  vtkVesicleSceneReader();
+  ~vtkVesicleSceneReader() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** input,
+    vtkInformationVector* output) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** input,
+    vtkInformationVector* output) override;
+
+private:
+  vtkVesicleSceneReader(const vtkVesicleSceneReader&) = delete;
+  void operator=(const vtkVesicleSceneReader&) = delete;
+
+  class Run;
+
+  std::string FileName;
+  std::vector<std::string> Overrides;
+  std::unique_ptr<Run> Current;
+};
+
+#endif
