@@ -46,9 +46,7 @@ Simulation::Simulation(const Scene& scene, const Start& start)
   topology_ = {measures_.components, measures_.genus};
   check(measures_);
   find_narrow_places();
-  if (vesicle_.phases())
-    for (const Domain& d : vesicle_.phases()->domains())
-      if (d.is_Ld) domains_.push_back(d);
+  domains_ = domains();
   note_unresolved();
 }
 

@@ -69,6 +69,7 @@ private:
   std::pair<bool, const CriticalPoint*> narrowest_place() const;
   bool broke_film(const Measures& m) const;
   void note_spontaneous_change();
+  std::vector<Domain> domains() const;
   void note_domains();
   void note_unresolved();
   void recentre_if_needed();

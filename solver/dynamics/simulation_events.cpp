@@ -20,8 +20,9 @@ constexpr double least_radius = 0.76, least_half_gap = 0.8;
 constexpr double worst_drift = 1e-4;      // of the constraints, after parting
 constexpr int most_cuts = 16;             // at one time
 constexpr int steps_between_attempts = 5; // to part where it would have raised the energy
-constexpr double vanishing_domain = 20;   // squared spacings; smaller ones shrink away
-constexpr double restart_step = 0.03;     // after parting; h^4 / kappa
+// Squared spacings: smaller domains do not count; smaller ones that are gone shrank away.
+constexpr double least_domain = 8, vanishing_domain = 40;
+constexpr double restart_step = 0.03; // after parting; h^4 / kappa
 } // namespace
 
 Vec3 Simulation::in_space(Vec3 place) const {
@@ -46,21 +47,27 @@ Event Simulation::event_now() const {
   return e;
 }
 
-/// Notes that Ld domains met, parted or shrank away: of two lists of them, the one that only the
-/// first has, and smaller than a few spacings across, is gone.
+/// The Ld domains that are more than a speck of a few nodes.
+std::vector<Domain> Simulation::domains() const {
+  const double least = least_domain * grid().spacing * grid().spacing;
+  std::vector<Domain> found;
+  if (vesicle_.phases())
+    for (const Domain& d : vesicle_.phases()->domains())
+      if (d.is_Ld && d.area > least) found.push_back(d);
+  return found;
+}
+
+/// Notes that Ld domains met, parted or shrank away: where one is gone that was only a few spacings
+/// across, it shrank.
 void Simulation::note_domains() {
-  if (!vesicle_.phases()) return;
-  std::vector<Domain> now;
-  for (const Domain& d : vesicle_.phases()->domains())
-    if (d.is_Ld) now.push_back(d);
-  const std::vector<Domain> before = std::exchange(domains_, now);
-  if (before.size() == now.size()) return;
-  const bool fewer = now.size() < before.size();
-  auto smallest = std::ranges::min_element(fewer ? before : now, {}, &Domain::area);
+  const std::vector<Domain> before = std::exchange(domains_, domains());
+  if (before.size() == domains_.size()) return;
+  const bool fewer = domains_.size() < before.size();
+  const auto smallest = std::ranges::min_element(fewer ? before : domains_, {}, &Domain::area);
   const double h = grid().spacing;
   Event e = event_now();
   e.domains_before = int(before.size());
-  e.domains_after = int(now.size());
+  e.domains_after = int(domains_.size());
   e.place = smallest->center;
   e.kind = !fewer                                      ? Event::Kind::domain_parted
            : smallest->area < vanishing_domain * h * h ? Event::Kind::domain_vanished
