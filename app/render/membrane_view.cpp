@@ -193,7 +193,8 @@ vtkSmartPointer<vtkRenderer> membrane_view(const Surface& surface, const Viewpoi
   camera->ParallelProjectionOn();
   camera->SetParallelScale(height / 2);
   camera->SetFocalPoint(viewpoint.lift({center[0], center[1], 0}).data());
-  camera->SetPosition(viewpoint.lift({center[0], center[1], 1}).data());
+  // Far enough for nothing to come near the camera, where VTK would cut it away.
+  camera->SetPosition(viewpoint.lift({center[0], center[1], 10 * height}).data());
   camera->SetViewUp(viewpoint.lift({0, 1, 0}).data());
   renderer->ResetCameraClippingRange();
   return renderer;
