@@ -102,6 +102,11 @@ ShapeMeasures::Phases measure_phases(const Frame& frame, const Membrane& membran
 
 } // namespace
 
+Size size_of(const Frame& frame) {
+  const SurfaceIntegrals integrals = integrate(Membrane(frame).surface, {}, {});
+  return {integrals.area(), integrals.volume};
+}
+
 ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity) {
   const Membrane membrane(frame);
   const SurfaceGeometry& surface = membrane.surface;

@@ -24,6 +24,12 @@ struct ShapeMeasures {
   std::optional<Phases> phases;
 };
 
+/// Area and volume alone.
+struct Size {
+  double area, volume;
+};
+Size size_of(const Frame& frame);
+
 ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity);
 
 } // namespace lamella

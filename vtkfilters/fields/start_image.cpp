@@ -1,6 +1,7 @@
 #include "fields/start_image.h"
 
 #include "fields/contour.h"
+#include "fields/smooth.h"
 #include "fields/spline_geometry.h"
 #include "scene/keys.h"
 
@@ -42,13 +43,9 @@ Frame start_frame(const ImageVesicle& vesicle) {
   const double slope = slope_of(frame);
   if (!(slope > 1e-300) || !std::isfinite(slope))
     throw InputError("phi is flat where it vanishes; it must change sign across the membrane");
-  const double shortest = frame.grid.spacing * *std::ranges::min_element(frame.grid.nodes);
-  const double width = std::max(16 * frame.grid.spacing, shortest / 4); // as of analytic shapes
   if (slope > steepest || slope < 1 / steepest)
     for (double& phi : frame.phi) phi /= slope;
-  const auto beyond = [width](double phi) { return std::abs(phi) > width * (1 + 1e-9); };
-  if (std::ranges::any_of(frame.phi, beyond))
-    for (double& phi : frame.phi) phi = width * std::tanh(phi / width);
+  level_off(frame.grid, frame.phi);
   return frame;
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+#include "grid/grid.h"
+
+#include <vector>
+
+namespace lamella {
+
+/// Makes a level set nearly periodic as those of start shapes are: W tanh(phi / W), with W the
+/// larger of 16 spacings and a quarter of the box. One that stays within W is left as it is.
+void level_off(const Grid& grid, std::vector<double>& phi);
+
+/// Blurs periodic nodal values by a Gaussian whose standard deviation is so many spacings.
+void blur(const Grid& grid, double width, std::vector<double>& values);
+
+/// Adds a constant to a level set that brings the volume of its inside to a value.
+void set_volume(const Grid& grid, double volume, std::vector<double>& phi);
+
+} // namespace lamella
