@@ -4,6 +4,14 @@
 set(lamella_vtk_components
   CommonCore CommonDataModel CommonExecutionModel FiltersCore IOImage
   RenderingCore RenderingOpenGL2 RenderingFreeType RenderingContext2D RenderingContextOpenGL2)
+if(LAMELLA_PYTHON)
+  list(APPEND lamella_vtk_components Python WrappingPythonCore)
+  set(Python3_FIND_STRATEGY LOCATION) # the system's, which VTK is built for, before others in PATH
+  if(NOT Python3_ROOT_DIR)
+    set(Python3_ROOT_DIR /usr)
+  endif()
+  find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
+endif()
 # vtkfilters/offscreen loads OpenGL through VTK's GLEW; VTK >= 9.4 has none and needs none of ours.
 set(lamella_vtk_find REQUIRED COMPONENTS ${lamella_vtk_components} OPTIONAL_COMPONENTS glew)
 
@@ -51,3 +59,15 @@ vtk_module_build(
   LIBRARY_NAME_SUFFIX ""
   VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}")
+
+if(LAMELLA_PYTHON)
+  set(lamella_python_modules "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+  list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../../..") # from the package to our libraries
+  vtk_module_wrap_python(
+    MODULES Lamella::vtkLamellaFilters
+    TARGET Lamella::python
+    PYTHON_PACKAGE lamella
+    MODULE_DESTINATION "${lamella_python_modules}"
+    INSTALL_HEADERS OFF)
+  add_subdirectory(python)
+endif()

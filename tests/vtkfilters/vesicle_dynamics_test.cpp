@@ -262,6 +262,30 @@ TEST(VesicleDynamics, PassesTimesDownAPipeline) {
   EXPECT_EQ(surface->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), end);
 }
 
+TEST(VesicleDynamics, MovesTwoPhases) {
+  vtkNew<vtkVesicleSource> source;
+  source->SetNodes(32, 32, 32);
+  source->SetShapeKind("sphere");
+  source->SetShapeRadius(0.6);
+  source->SetDomainsKind("cap");
+  source->SetDomainsAreaFraction(0.3);
+  source->Update();
+  const auto dynamics = dynamics_of(source->GetOutput());
+  dynamics->SetLineTension(20);
+  dynamics->SetLoBendingModulus(2);
+  dynamics->UpdateTimeStep(0);
+  const double length = field(dynamics, "line_length"), A_Ld = field(dynamics, "A_Ld"),
+               energy = field(dynamics, "energy");
+  for (const double time : {end, 0.3 * end}) { // a stored one, and one between
+    dynamics->UpdateTimeStep(time);
+    EXPECT_EQ(field(dynamics, "lo.bending_modulus"), 2);
+    EXPECT_LT(field(dynamics, "line_length"), length);
+    EXPECT_LT(field(dynamics, "energy"), energy);
+    EXPECT_NEAR(field(dynamics, "A_Ld") / A_Ld, 1, 1e-3);
+    ASSERT_NE(values_of(dynamics->GetOutput(), "psi"), nullptr);
+  }
+}
+
 TEST(VesicleDynamics, SaysWhatIsWrongWithAnImage) {
   for (const BadImage& bad : bad_images()) {
     const auto dynamics = dynamics_of(bad.image);

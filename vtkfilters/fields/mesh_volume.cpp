@@ -52,13 +52,13 @@ void wind_against(const std::array<int, 3>& neighbour, std::array<int, 3>& trian
 /// The parts of a mesh, whose triangles are wound one way in each.
 std::vector<Part> parts_of(Mesh& mesh) {
   const auto next_to = neighbours(mesh);
-  std::vector<char> known(mesh.triangles.size(), 0);
+  std::vector<bool> known(mesh.triangles.size());
   std::vector<Part> parts;
   for (std::size_t t = 0; t < known.size(); ++t) {
     if (known[t]) continue;
     Part& part = parts.emplace_back();
     std::vector<int> open{int(t)};
-    known[t] = 1;
+    known[t] = true;
     while (!open.empty()) {
       const int at = open.back();
       open.pop_back();
@@ -67,7 +67,7 @@ std::vector<Part> parts_of(Mesh& mesh) {
       for (const int other : next_to[at]) {
         if (known[other]) continue;
         wind_against(mesh.triangles[at], mesh.triangles[other]);
-        known[other] = 1;
+        known[other] = true;
         open.push_back(other);
       }
     }

@@ -54,8 +54,6 @@ Trajectory::Trajectory(const Scene& scene)
     : scene_(scene), times_(stored_times(scene)), simulation_(scene),
       stopping_(scene.stop), history_{simulation_.measures()} {
   stored_.push_back(now());
-  if (scene.has_phases() && stored_.front().frame.psi.empty())
-    throw RunError("membranes of two phases cannot be moved in this release");
 }
 
 State Trajectory::at(double time, const GoOn& go_on) {

@@ -1,0 +1,106 @@
+"""VTK data as numpy arrays, errors as exceptions."""
+
+import re
+
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+
+from .vtkLamellaFilters import vtkMembraneMeasures, vtkMembraneSurface, vtkPhaseBoundary
+
+
+class Error(RuntimeError):
+    """What cannot be computed, and what would be right, in the words of the solver."""
+
+
+def update(algorithm, time=None):
+    """Update an algorithm, at a time if one is given, and return it. Raises Error for what it, or
+    an algorithm before it, reports."""
+    found = []
+
+    @calldata_type(VTK_STRING)
+    def note(_caller, _event, text):
+        found.append(re.sub(r"^ERROR: .*\n[^:]*: ", "", text).strip())
+
+    watched = [(a, a.AddObserver("ErrorEvent", note)) for a in _pipeline(algorithm)]
+    try:
+        if time is None:
+            algorithm.Update()
+        else:
+            algorithm.UpdateTimeStep(time)
+    finally:
+        for one, tag in watched:
+            one.RemoveObserver(tag)
+    if found:
+        raise Error("\n".join(found))
+    return algorithm
+
+
+def arrays(data):
+    """The arrays of a data set (of its points, else its cells), of a table, or of field data, by
+    name. Views without copies: shape (tuples,), or (tuples, components), for images
+    (nz, ny, nx[, components])."""
+    points = data.GetPointData() if hasattr(data, "GetPointData") else data.GetRowData() if hasattr(
+        data, "GetRowData") else data
+    shape = tuple(reversed(data.GetDimensions())) if data.IsA("vtkImageData") else (-1,)
+    views = {}
+    for index in range(points.GetNumberOfArrays()):
+        array = points.GetArray(index)
+        if array is not None:
+            view = vtk_to_numpy(array)
+            views[array.GetName()] = view.reshape(shape + view.shape[1:])
+    return views
+
+
+def surface(image, **properties):
+    """The membrane of an image or a Frame as vtkPolyData, see vtkMembraneSurface. Properties by their
+    VTK names: surface(image, Refinement=3)."""
+    return _filtered(vtkMembraneSurface(), image, properties)
+
+
+def boundary(image, **properties):
+    """The boundary of two phases as vtkPolyData, see vtkPhaseBoundary."""
+    return _filtered(vtkPhaseBoundary(), image, properties)
+
+
+def measures(image, **properties):
+    """What vtkMembraneMeasures measures, by name: floats."""
+    table = _filtered(vtkMembraneMeasures(), image, properties)
+    return {name: float(column[0]) for name, column in arrays(table).items()}
+
+
+def _pipeline(algorithm):
+    """An algorithm and all those before it."""
+    found, left = [], [algorithm]
+    while left:
+        one = left.pop()
+        if one is None or one in found:
+            continue
+        found.append(one)
+        for port in range(one.GetNumberOfInputPorts()):
+            for connection in range(one.GetNumberOfInputConnections(port)):
+                left.append(one.GetInputAlgorithm(port, connection))
+    return found
+
+
+def _filtered(algorithm, image, properties):
+    algorithm.SetInputData(getattr(image, "image", image))
+    for name, value in properties.items():
+        getattr(algorithm, "Set" + name)(value)
+    return update(algorithm).GetOutputDataObject(0)
+
+
+def fields(data):
+    """The field data that are single numbers, by name."""
+    field_data = data.GetFieldData()
+    found = {}
+    for index in range(field_data.GetNumberOfArrays()):
+        array = field_data.GetArray(index)
+        if array is not None and array.GetNumberOfValues() == 1:
+            found[array.GetName()] = array.GetTuple1(0)
+    return found
+
+
+def time_of(data):
+    return data.GetInformation().Get(vtkDataObject.DATA_TIME_STEP())
