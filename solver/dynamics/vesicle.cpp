@@ -373,9 +373,9 @@ Measures Vesicle::measures(double time) const {
     p.line_energy = phases_->line_energy(i);
     p.sigma_Ld = multipliers_[1] + multipliers_[3];
     p.sigma_Lo = multipliers_[1];
-    p.area_Ld = i.area_Ld;
-    p.area_Lo = A - i.area_Ld;
-    p.area_Ld_drift = i.area_Ld / constraints_.target(time)[3] - 1;
+    p.area_Ld = integrals_.area_Ld;
+    p.area_Lo = A - integrals_.area_Ld;
+    p.area_Ld_drift = integrals_.area_Ld / constraints_.target(time)[3] - 1;
     p.line_length = phases_->boundary().length();
     p.line_radius = phases_->least_radius();
     p.max_line_speed = max_line_speed();

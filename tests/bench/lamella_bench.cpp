@@ -13,9 +13,10 @@
 namespace lamella {
 namespace {
 
-Scene oblate_at(int nodes) {
-  return builtin_scene("fig3_oblate", std::vector{"grid.nodes=" + std::to_string(nodes)});
+Scene scene_at(std::string_view name, int nodes) {
+  return builtin_scene(name, std::vector{"grid.nodes=" + std::to_string(nodes)});
 }
+Scene oblate_at(int nodes) { return scene_at("fig3_oblate", nodes); }
 
 double seconds_of(auto&& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -61,11 +62,12 @@ BENCHMARK(BM_FftwPair)
     ->Unit(benchmark::kMillisecond)
     ->MinTime(0.3);
 
-/// A step of the oblate run, once it is under way. Arguments: nodes, threads.
-void BM_Step(benchmark::State& state) {
+/// A step of a scene, once it is under way. Arguments: nodes, threads. fftw_pairs: the same in
+/// units of a pair of transforms of the whole box on one thread.
+void step_of(benchmark::State& state, const Scene& scene) {
   const int nodes = int(state.range(0));
   set_thread_count(int(state.range(1)));
-  Simulation sim(oblate_at(nodes));
+  Simulation sim(scene);
   FftwPair pair(nodes);
   for (int i = 0; i < 30; i++) sim.step(1);
   double fft = 0, steps = 0;
@@ -78,11 +80,57 @@ void BM_Step(benchmark::State& state) {
   state.counters["fftw_pairs"] = steps / fft;
   set_thread_count(0);
 }
+void BM_Step(benchmark::State& state) { step_of(state, oblate_at(int(state.range(0)))); }
 BENCHMARK(BM_Step)
     ->ArgsProduct({{48, 64, 96, 128}, {1, 2}})
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime()
     ->Iterations(30);
+
+/// The same with two phases: one domain, twelve of them, twelve and the local stretch.
+void BM_StepOneDomain(benchmark::State& state) {
+  step_of(state, scene_at("fig9", int(state.range(0))));
+}
+void BM_StepTwelveDomains(benchmark::State& state) {
+  step_of(state, scene_at("fig13a", int(state.range(0))));
+}
+void BM_StepWithStretch(benchmark::State& state) {
+  step_of(state, scene_at("fig13b", int(state.range(0))));
+}
+BENCHMARK(BM_StepOneDomain)
+    ->ArgsProduct({{48, 64, 96}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(30);
+BENCHMARK(BM_StepTwelveDomains)
+    ->ArgsProduct({{64}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(30);
+BENCHMARK(BM_StepWithStretch)
+    ->ArgsProduct({{64}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(30);
+
+/// The bulged cap of Fig. 9 to t = 0.021; counters: steps, and the total energy against that at
+/// rest.
+void BM_RunOneDomain(benchmark::State& state) {
+  const Scene scene = scene_at("fig9", int(state.range(0)));
+  set_thread_count(int(state.range(1)));
+  for (auto _ : state) {
+    Simulation sim(scene);
+    double steps = 0;
+    for (; sim.time() < scene.end_time; steps++) sim.step(scene.end_time);
+    state.counters["steps"] = steps;
+    state.counters["energy_error"] = sim.measures().energy / 125.5287 - 1;
+  }
+  set_thread_count(0);
+}
+BENCHMARK(BM_RunOneDomain)
+    ->ArgsProduct({{48, 64, 80}, {2}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 
 /// The whole run to t = 1.6e-3; counters: steps and errors of int K_M^2, P and sigma at the end.
 void BM_Run(benchmark::State& state) {
@@ -117,8 +165,9 @@ void per_point(benchmark::State& state, F&& work) {
   const std::size_t n = band.size();
   std::vector<double> out[8];
   for (auto& o : out) o.resize(n);
-  const SurfaceArrays arrays{out[0].data(), out[1].data(), out[2].data(), out[3].data(),
-                             out[4].data(), out[5].data(), out[6].data(), out[7].data()};
+  const SurfaceArrays arrays{out[0].data(), out[1].data(), out[2].data(),
+                             out[3].data(), out[4].data(), out[5].data(),
+                             out[6].data(), out[7].data(), {}};
   for (auto _ : state) work(phi, band, arrays);
   state.counters["ns_per_point"] =
       benchmark::Counter(double(n) * 1e-9, benchmark::Counter::kIsIterationInvariantRate |
