@@ -7,6 +7,8 @@
 #include "start_surface.h"
 #include "store/frame.h"
 
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -313,7 +315,8 @@ protected:
   }
 
   const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / "lamella domains test";
+      std::filesystem::temp_directory_path() /
+      ("lamella domains test " + std::to_string(::getpid())); // tests run side by side
   const std::string two_phases_ = folder_ / "two.hdf", one_phase_ = folder_ / "one.hdf";
   Scene stored_ = with_cap(ball, 0.4);
   Scene scene_;
