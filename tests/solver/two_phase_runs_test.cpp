@@ -39,8 +39,7 @@ double largest_rise_after(double ramp_end, const std::vector<Measures>& history)
 
 void expect_held(const std::vector<Measures>& history) {
   EXPECT_LE(worst_drift(history), 1e-5);
-  for (const Measures& m : history)
-    EXPECT_LT(std::abs(m.phases->area_Ld_drift), 3e-4) << m.time; // measured 2e-4
+  for (const Measures& m : history) EXPECT_LT(std::abs(m.phases->area_Ld_drift), 1e-5) << m.time;
 }
 
 // -----------------------------------------------------------------------------------------------
