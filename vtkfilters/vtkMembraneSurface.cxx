@@ -34,7 +34,7 @@ constexpr int Margin = 4; // spacings around the membrane that refining needs
 // Facets have less area than the membrane: of it, ChordDeficit times the squared spacing and the mean
 // of K_M^2, measured on spheres; on thin shapes less.
 constexpr double ChordDeficit = 0.06, DeficitAllowed = 7e-4;
-constexpr int LeastRefinement = 2, MostRefinement = 8;
+constexpr int LeastRefinement = 2, MostRefinement = 4; // beyond it the shape is not resolved
 
 Frame Refined(const Frame& frame, int factor)
 {
@@ -52,7 +52,8 @@ int SuitableRefinement(const Frame& frame, const LevelSet& phi)
     std::inner_product(geometry.KM.begin(), geometry.KM.end(), geometry.KM.begin(), 0.0);
   const double h = frame.grid.spacing, mean = squares / static_cast<double>(geometry.KM.size());
   const double wanted = std::ceil(h * std::sqrt(ChordDeficit * mean / DeficitAllowed));
-  return static_cast<int>(std::clamp<double>(wanted, LeastRefinement, MostRefinement));
+  return wanted < MostRefinement ? std::max(static_cast<int>(wanted), LeastRefinement)
+                                 : MostRefinement; // also where curvatures are not finite
 }
 
 double* AddArray(vtkPolyData& mesh, const char* name, int components = 1)

@@ -64,8 +64,8 @@ public:
   ///@}
 
   ///@{
-  /** Cells of the refined lattice along a cell of the input, 1 to 8. 0, the default: as many as keep
-   * the area of the triangles; without curvatures 2. */
+  /** Cells of the refined lattice along a cell of the input, 1 to 8. 0, the default: 2 to 4, as many as
+   * keep the area of the triangles; without curvatures 2. */
   vtkSetClampMacro(Refinement, int, 0, 8);
   vtkGetMacro(Refinement, int);
   ///@}

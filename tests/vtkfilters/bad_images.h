@@ -32,11 +32,16 @@ inline std::vector<BadImage> bad_images() {
   add("nowhere negative", set_phi(1));
   add("nowhere positive", set_phi(-1));
   add("there is no membrane", set_phi(0));
-  add("the membrane is not closed", [](vtkImageData& image) {
-    vtkDataArray* phi = image.GetPointData()->GetArray("phi");
-    for (vtkIdType n = 0; n < phi->GetNumberOfTuples(); ++n)
-      phi->SetComponent(n, 0, -phi->GetComponent(n, 0));
-  });
+  const auto scale_phi = [](double factor) {
+    return [factor](vtkImageData& image) {
+      vtkDataArray* phi = image.GetPointData()->GetArray("phi");
+      for (vtkIdType n = 0; n < phi->GetNumberOfTuples(); ++n)
+        phi->SetComponent(n, 0, factor * phi->GetComponent(n, 0));
+    };
+  };
+  add("about a distance", scale_phi(1e200));
+  add("about a distance", scale_phi(1e-200));
+  add("the membrane is not closed", scale_phi(-1));
   add("spacings of 0.1, 0.1 and 0.2", [](vtkImageData& image) { image.SetSpacing(.1, .1, .2); });
   add("the image is turned",
       [](vtkImageData& image) { image.SetDirectionMatrix(0, 1, 0, -1, 0, 0, 0, 0, 1); });

@@ -20,6 +20,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 namespace lamella {
 namespace {
@@ -229,6 +230,26 @@ TEST(MembraneSurface, ComputesWhatIsAskedFor) {
     EXPECT_NEAR(values_of(mesh, "energy_density")[n], 0, 1e-6);
   surface->SetRefinement(99);
   EXPECT_EQ(surface->GetRefinement(), 8);
+}
+
+TEST(MembraneSurface, TakesWhatIsHardlyALevelSet) {
+  const Grid grid = Grid::cube(32, 1);
+  const auto surface = [&](auto&& phi_at) {
+    Frame frame{.grid = grid, .phi = std::vector<double>(grid.size())};
+    for (std::size_t n = 0; n < grid.size(); ++n) {
+      const auto [x, y, z] = grid.position(n);
+      frame.phi[n] = phi_at(std::hypot(x, y, z));
+    }
+    return surface_of(image_of(frame));
+  };
+  const auto segmented = surface([](double r) { return r < 0.5 ? -1 : 1; });
+  EXPECT_NEAR(area(segmented) / pi, 1, 0.2);
+  const auto plateau = surface([](double r) { return r < 0.5 ? r - 0.5 : std::max(0.0, r - 0.6); });
+  for (vtkPolyData* mesh : {segmented.Get(), plateau.Get()}) {
+    directed_edges(mesh);
+    ASSERT_GT(mesh->GetNumberOfPoints(), 0);
+    for (const double bound : std::span(mesh->GetBounds(), 6)) EXPECT_LT(std::abs(bound), 0.7);
+  }
 }
 
 TEST(MembraneSurface, ComesOutTheSameTwice) {

@@ -238,6 +238,15 @@ TEST(VesicleDynamics, TakesLevelSetsThatAreNoDistances) {
     EXPECT_NEAR(field(dynamics, name) / field(usual, name), 1, 2e-3) << name;
 }
 
+TEST(VesicleDynamics, TakesBoxesThatAreNoCubes) {
+  const auto dynamics = dynamics_of(
+      image_of(frame_of({.kind = ShapeKind::prolate, .semi_axis = 0.7, .reduced_volume = 0.8},
+                        {{24, 24, 40}, 0.05})));
+  const auto phi = phi_at(dynamics, end);
+  EXPECT_EQ(phi.size(), std::size_t(24 * 24 * 40));
+  EXPECT_NEAR(field(dynamics, "v"), 0.8, 1e-3);
+}
+
 TEST(VesicleDynamics, LeavesTheBoxWhereItIs) {
   const auto image = start();
   image->SetOrigin(image->GetOrigin()[0] + 5, image->GetOrigin()[1], image->GetOrigin()[2] - 2);

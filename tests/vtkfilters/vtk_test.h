@@ -5,6 +5,7 @@
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -33,16 +34,16 @@ inline Shape sphere(double radius, const Vec3& center = {}) {
   return {.kind = ShapeKind::sphere, .radius = radius, .center = center};
 }
 
-/// What an algorithm reports while it lives; nothing is printed.
+/// What an object reports while this lives; nothing is printed.
 class Reports {
 public:
-  explicit Reports(vtkAlgorithm* algorithm, unsigned long event = vtkCommand::ErrorEvent) {
+  explicit Reports(vtkObject* object, unsigned long event = vtkCommand::ErrorEvent) {
     command_->SetClientData(this);
     command_->SetCallback([](vtkObject*, unsigned long, void* self, void* text) {
       static_cast<Reports*>(self)->text_ += static_cast<const char*>(text);
     });
-    observed_ = algorithm;
-    tag_ = algorithm->AddObserver(event, command_);
+    observed_ = object;
+    tag_ = object->AddObserver(event, command_);
   }
   ~Reports() { observed_->RemoveObserver(tag_); }
   Reports(const Reports&) = delete;
@@ -50,7 +51,7 @@ public:
   const std::string& text() const { return text_; }
 
 private:
-  vtkSmartPointer<vtkAlgorithm> observed_;
+  vtkSmartPointer<vtkObject> observed_;
   unsigned long tag_ = 0;
   vtkNew<vtkCallbackCommand> command_;
   std::string text_;

@@ -87,6 +87,17 @@ Vec3 center_of(vtkImageData& image, const Grid& grid) {
   return {first[0] - grid.origin(0), first[1] - grid.origin(1), first[2] - grid.origin(2)};
 }
 
+/// Throws where products of phi and its derivatives would leave the range of numbers.
+void check_size(const Frame& frame) {
+  constexpr double least = 1e-60, most = 1e60;
+  const auto [low, high] = std::ranges::minmax(frame.phi);
+  const double largest = std::max(-low, high);
+  if (largest > most || (largest > 0 && largest < least))
+    throw InputError(fmt::format("phi goes from {:g} to {:g}; it should be about a distance from "
+                                 "the membrane",
+                                 low, high));
+}
+
 /// Throws where phi has no zeros, or some of its inside is at the sides of the box.
 void check_closed(const Frame& frame) {
   const auto [least, greatest] = std::ranges::minmax(frame.phi);
@@ -125,6 +136,7 @@ ImageVesicle vesicle_in(vtkImageData& image, const std::string& phi_array) {
                        center_of(image, grid)};
   if (vtkInformation* about = image.GetInformation(); about->Has(vtkDataObject::DATA_TIME_STEP()))
     vesicle.frame.time = about->Get(vtkDataObject::DATA_TIME_STEP());
+  check_size(vesicle.frame);
   check_closed(vesicle.frame);
   return vesicle;
 }

@@ -1,6 +1,7 @@
 #include "fields/measure.h"
 
 #include "dynamics/surface_integrals.h"
+#include "fields/image.h"
 #include "fields/spline_geometry.h"
 #include "geometry/phase_boundary.h"
 #include "levelset/critical_points.h"
@@ -112,6 +113,8 @@ ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity) {
   const SurfaceGeometry& surface = membrane.surface;
   const SurfaceIntegrals integrals =
       integrate(surface, elasticity.membrane, variation(surface, elasticity.membrane));
+  if (!(integrals.area() > 0))
+    throw InputError("the membrane is too small for the grid to be measured");
   const double pi = std::numbers::pi, radius = std::sqrt(integrals.area() / (4 * pi));
   const Topology topology = topology_of(frame.grid, frame.phi);
   ShapeMeasures m;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace lamella {
 namespace {
 
 constexpr std::size_t chunk = 256;
+constexpr double longest_step = 0.5; // spacings
 
 /// A chunk of points and what the kernels say of them.
 struct Samples {
@@ -17,15 +19,17 @@ struct Samples {
 
   ConstPoints points() const { return {x.data(), y.data(), z.data()}; }
   SurfaceArrays arrays() {
-    return {phi.data(),  nx.data(), ny.data(), nz.data(),
-            grad.data(), KM.data(), K.data(),  lap_KM.data()};
+    return {phi.data(), nx.data(), ny.data(),     nz.data(), grad.data(),
+            KM.data(),  K.data(),  lap_KM.data(), {}};
   }
   void evaluate(const SplineView& spline, bool with_lap_KM) {
     (with_lap_KM ? kernels().jets : kernels().curvatures)(spline, count, points(), arrays());
   }
-  void take_newton_step() {
+  /// Not further than `longest`, and not at all where phi is flat.
+  void take_newton_step(double longest) {
     for (std::size_t i = 0; i < count; ++i) {
-      const double distance = phi[i] / grad[i];
+      const double whole = phi[i] / grad[i];
+      const double distance = std::isfinite(whole) ? std::clamp(whole, -longest, longest) : 0;
       x[i] -= distance * nx[i];
       y[i] -= distance * ny[i];
       z[i] -= distance * nz[i];
@@ -73,7 +77,7 @@ SplineGeometry move_onto(const LevelSet& phi, vtkPoints& points, bool with_lap_K
     Samples samples;
     take(points, begin, end, samples);
     samples.evaluate(spline, false);
-    samples.take_newton_step();
+    samples.take_newton_step(longest_step * phi.grid().spacing);
     samples.evaluate(spline, with_lap_KM);
     put(samples, begin, points, geometry);
   });
