@@ -22,10 +22,8 @@ constexpr double linear_until = 5, level_from = 9;
 constexpr double follow_until = 4, follow_end = 6.6;
 constexpr double foot_reach = 8;
 
-constexpr double smoothing_length = 1; // spacings; finer content of psi is left to noise_damping()
-constexpr double far_pull = 0.1;       // towards the distance where it does not matter much, a step
-constexpr double inconsistent = 1.5;   // distance from psi: the foot is not that of this boundary
-constexpr double least_spline_symbol = 0.25;
+constexpr double far_pull = 0.1;     // towards the distance where it does not matter much, a step
+constexpr double inconsistent = 1.5; // distance from psi: the foot is not that of this boundary
 
 /// The node next to point i, within the box.
 std::size_t node_at(const Grid& grid, ConstPoints points, std::size_t i) {
@@ -59,17 +57,12 @@ Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier
       line_(scene.line), sharp_line_{0, 0, scene.line.torsion_modulus, scene.line.normal_modulus},
       accurate_(SmearedStep::accurate(line_width * h_)),
       monotonic_(SmearedStep::monotonic(modulus_width * h_)),
-      of_moments_(SmearedStep::of_moments(moment_width * h_)), fourier_(fourier),
+      of_moments_(SmearedStep::of_moments(moment_width * h_)), fit_(scene.grid(), fourier),
       psi_(scene.grid()), current_(moduli(0)) {
   std::vector<double> nodal(psi.size());
   for (std::size_t i = 0; i < psi.size(); i++) nodal[i] = saturated(psi[i]);
   std::ranges::copy(nodal, psi_.coefficients().begin());
   psi_.fit(nodal, fourier, 60);
-  for (int axis = 0; axis < 3; axis++)
-    for (int m = 0; m < (axis == 0 ? fourier.row_modes() : scene.nodes[axis]); m++) {
-      k2_[axis].push_back(fourier.k2(axis, m));
-      symbol_[axis].push_back(std::max(least_spline_symbol, fourier.spline_symbol(axis, m)));
-    }
 }
 
 /// By Gauss and Bonnet kappa_g oint kg dl is, but for a constant, a Gaussian modulus of Ld.
@@ -133,21 +126,12 @@ void Phases::restore_distance(const NarrowBand& band) {
     for (int s = band.plane_begin(k); s < band.plane_begin(k + 1); s++)
       out[band.node()[s] - k * plane] = change[s];
   };
-  const double length4 = std::pow(smoothing_length * h_, 4);
-  auto smooth = [&](int ky, int kz, std::complex<double>* row) {
-    const double across = k2_[1][ky] + k2_[2][kz],
-                 scale = 1 / (symbol_[1][ky] * symbol_[2][kz] * double(grid.size()));
-    for (int kx = 0; kx < fourier_.row_modes(); kx++) {
-      const double k2 = across + k2_[0][kx];
-      row[kx] *= scale / (symbol_[0][kx] * (1 + length4 * k2 * k2));
-    }
-  };
   LevelSet correction(grid);
   auto sink = [&](int k, const double* in) {
     const std::size_t plane = std::size_t(grid.nx()) * grid.ny();
     std::copy_n(in, plane, correction.coefficients().begin() + k * plane);
   };
-  fourier_.apply(source, smooth, sink);
+  fit_.apply(source, sink);
   for (std::size_t i = 0; i < band.size(); i++)
     correction.coefficients()[band.node()[i]] +=
         band.taper()[i] * noise_damping(grid, psi_.coefficients(), band.node()[i]);

@@ -9,6 +9,7 @@
 #include "levelset/domains.h"
 #include "levelset/extension.h"
 #include "levelset/level_set.h"
+#include "levelset/smooth_fit.h"
 #include "scene/scene.h"
 
 #include <Eigen/Core>
@@ -123,8 +124,7 @@ private:
   Line line_;
   LineEnergy sharp_line_; // what is not smeared by itself
   SmearedStep accurate_, monotonic_, of_moments_;
-  Fourier& fourier_;
-  std::vector<double> k2_[3], symbol_[3]; // along each axis
+  SmoothFit fit_;
   LevelSet psi_;
   PhaseBoundary boundary_;
   BoundaryFeet feet_; // of the band's entries

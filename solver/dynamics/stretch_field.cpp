@@ -11,15 +11,12 @@ namespace lamella {
 namespace {
 using Eigen::Vector3d;
 
-// Spacings: finer content of what is corrected off the membrane is left alone.
-constexpr double smoothing_length = 1;
-constexpr double least_spline_symbol = 0.25;
 constexpr std::size_t chunk = 256;
 } // namespace
 
 StretchField::StretchField(double modulus, const Grid& grid, std::span<const double> c,
                            Fourier& fourier)
-    : law_{modulus}, fourier_(fourier), c_(grid) {
+    : law_{modulus}, fit_(grid, fourier), c_(grid) {
   if (c.empty()) {
     std::ranges::fill(c_.coefficients(), 1.0);
     return;
@@ -89,20 +86,6 @@ void StretchField::extend(const NarrowBand& band, const SurfaceGeometry& surface
     for (std::size_t i = begin; i < end; i++) off_[i] = t[i - begin] - c_.nodal()[band.node()[i]];
   });
   extension.fill(band, off_);
-  const double length4 = std::pow(smoothing_length * grid.spacing, 4);
-  auto symbol = [&](int axis, int m) {
-    return std::max(least_spline_symbol, fourier_.spline_symbol(axis, m));
-  };
-  std::vector<double> along_x;
-  for (int kx = 0; kx < fourier_.row_modes(); kx++) along_x.push_back(symbol(0, kx));
-  auto smooth = [&](int ky, int kz, std::complex<double>* row) {
-    const double across = fourier_.k2(1, ky) + fourier_.k2(2, kz),
-                 scale = 1 / (symbol(1, ky) * symbol(2, kz) * double(grid.size()));
-    for (int kx = 0; kx < fourier_.row_modes(); kx++) {
-      const double k2 = across + fourier_.k2(0, kx);
-      row[kx] *= scale / (along_x[kx] * (1 + length4 * k2 * k2));
-    }
-  };
   const double missing = (lipid_ - lipid(surface)) / [&] {
     double area = 0;
     for (const double w : surface.weight()) area += w;
@@ -110,10 +93,10 @@ void StretchField::extend(const NarrowBand& band, const SurfaceGeometry& surface
   }();
   const std::size_t plane = std::size_t(grid.nx()) * grid.ny();
   std::span<double> c = c_.coefficients();
-  fourier_.apply([&](int k, double* out) { extension.plane(k, out); }, smooth,
-                 [&](int k, const double* in) {
-                   for (std::size_t i = 0; i < plane; i++) c[k * plane + i] += in[i] + missing;
-                 });
+  fit_.apply([&](int k, double* out) { extension.plane(k, out); },
+             [&](int k, const double* in) {
+               for (std::size_t i = 0; i < plane; i++) c[k * plane + i] += in[i] + missing;
+             });
 }
 
 StretchMeasures StretchField::measures(const SurfaceGeometry& surface) const {

@@ -4,6 +4,7 @@
 #include "geometry/surface_geometry.h"
 #include "levelset/extension.h"
 #include "levelset/level_set.h"
+#include "levelset/smooth_fit.h"
 
 #include <Eigen/Core>
 
@@ -44,7 +45,7 @@ private:
   double lipid(const SurfaceGeometry& surface) const;
 
   StretchEnergy law_;
-  Fourier& fourier_;
+  SmoothFit fit_;
   LevelSet c_;
   std::vector<double> value_, lap_, slope2_; // at the samples: c, Lap_s c, |grad_s c|^2
   std::vector<double> off_;
