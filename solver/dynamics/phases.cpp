@@ -168,7 +168,7 @@ void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface) {
     const double about = i < own ? psi_.nodal()[band.node()[surface.entry()[i]]] : second[i - own];
     share_[i] = moment_share_[i] = about < 0;
     if (std::abs(about) > reach + 0.5 * h_) continue;
-    StripPoint s{};
+    StripPoint s;
     s.sample = int(i);
     if (i < own) s.foot = feet_[surface.entry()[i]];
     strip_.push_back(s);
@@ -262,13 +262,20 @@ void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli)
   for (std::size_t j = 0; j < curve.size(); j++)
     force_[j] = line_.tension * curve[j].kg + sharp[j].dot(curve[j].n);
   if (!moduli.differ()) return;
-  constexpr int rule = 8;
-  constexpr double node[rule] = {-.9602898564975363, -.7966664774136267, -.5255324099163290,
-                                 -.1834346424956498, .1834346424956498,  .5255324099163290,
-                                 .7966664774136267,  .9602898564975363},
-                   weight[rule] = {.1012285362903763, .2223810344533745, .3137066458778873,
-                                   .3626837833783620, .3626837833783620, .3137066458778873,
-                                   .2223810344533745, .1012285362903763};
+  constexpr int rule = 16;
+  constexpr double half_node[rule / 2] = {.0950125098376374, .2816035507792589, .4580167776572274,
+                                          .6178762444026438, .7554044083550030, .8656312023878318,
+                                          .9445750230732326, .9894009349916499},
+                                    half_weight[rule / 2] = {.1894506104550685, .1826034150449236,
+                                                             .1691565193950025, .1495959888165767,
+                                                             .1246289712555339, .0951585116824928,
+                                                             .0622535239386479, .0271524594117541};
+  double node[rule], weight[rule];
+  for (int q = 0; q < rule / 2; q++) {
+    node[q] = -half_node[q];
+    node[rule / 2 + q] = half_node[q];
+    weight[q] = weight[rule / 2 + q] = half_weight[q];
+  }
   const double reach =
       std::max({accurate_.half_width(), monotonic_.half_width(), of_moments_.half_width()});
   std::vector<Vector3d> points;

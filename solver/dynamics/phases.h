@@ -102,13 +102,13 @@ public:
 private:
   /// A sample in the strip along the boundary.
   struct StripPoint {
-    int sample;
-    double psi;
-    Eigen::Matrix3d hessian;
-    double along_N;           ///< N.grad psi
-    Eigen::Vector3d gradient; ///< along the membrane
-    double slope2;            ///< its square
-    double lap;               ///< Lap_s psi
+    int sample = 0;
+    double psi = 0;
+    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+    double along_N = 0;                                 ///< N.grad psi
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero(); ///< along the membrane
+    double slope2 = 0;                                  ///< its square
+    double lap = 0;                                     ///< Lap_s psi
     BoundaryFeet::Foot foot;
   };
 
