@@ -106,20 +106,22 @@ void Phases::restore_distance(const NarrowBand& band) {
   const Grid& grid = band.grid();
   const double top = saturated(1e9);
   std::vector<double> change(band.size(), 0);
-  for (std::size_t i = 0; i < band.size(); i++) {
-    const double psi = psi_.nodal()[band.node()[i]];
-    const BoundaryFeet::Foot& foot = feet_[i];
-    double& c = change[i];
-    if (foot.exists()) {
-      const double off = saturated(foot.distance) - psi, near = boundary_taper(foot.distance);
-      if (std::abs(psi) < follow_until * h_ && std::abs(off) > inconsistent * h_) continue;
-      c = (near + far_pull * (1 - near)) * off;
-    } else {
-      const double there = psi_.nodal()[node_at(grid, band.points(), i)];
-      c = far_pull * (std::copysign(top, there) - psi);
+  parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      const double psi = psi_.nodal()[band.node()[i]];
+      const BoundaryFeet::Foot& foot = feet_[i];
+      double& c = change[i];
+      if (foot.exists()) {
+        const double off = saturated(foot.distance) - psi, near = boundary_taper(foot.distance);
+        if (std::abs(psi) < follow_until * h_ && std::abs(off) > inconsistent * h_) continue;
+        c = (near + far_pull * (1 - near)) * off;
+      } else {
+        const double there = psi_.nodal()[node_at(grid, band.points(), i)];
+        c = far_pull * (std::copysign(top, there) - psi);
+      }
+      c *= band.taper()[i];
     }
-    c *= band.taper()[i];
-  }
+  });
   auto source = [&](int k, double* out) {
     const std::size_t plane = std::size_t(grid.nx()) * grid.ny();
     std::fill_n(out, plane, 0.0);
@@ -132,9 +134,11 @@ void Phases::restore_distance(const NarrowBand& band) {
     std::copy_n(in, plane, correction.coefficients().begin() + k * plane);
   };
   fit_.apply(source, sink);
-  for (std::size_t i = 0; i < band.size(); i++)
-    correction.coefficients()[band.node()[i]] +=
-        band.taper()[i] * noise_damping(grid, psi_.coefficients(), band.node()[i]);
+  parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++)
+      correction.coefficients()[band.node()[i]] +=
+          band.taper()[i] * noise_damping(grid, psi_.coefficients(), band.node()[i]);
+  });
   std::vector<Vector3d> places;
   for (const BoundaryPoint& p : boundary_.points()) places.push_back(p.x);
   std::vector<double> at_boundary;
@@ -144,10 +148,12 @@ void Phases::restore_distance(const NarrowBand& band) {
   parallel_for(c.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) c[i] += d[i];
   });
-  for (std::size_t i = 0; i < band.size(); i++)
-    if (feet_[i].exists())
-      c[band.node()[i]] -=
-          band.taper()[i] * boundary_taper(feet_[i].distance) * feet_[i].value(at_boundary);
+  parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++)
+      if (feet_[i].exists())
+        c[band.node()[i]] -=
+            band.taper()[i] * boundary_taper(feet_[i].distance) * feet_[i].value(at_boundary);
+  });
 }
 
 void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface) {
@@ -391,12 +397,14 @@ double Phases::max_line_speed(double multiplier) const {
 void Phases::extend_rates(const NarrowBand& band, double multiplier, Extension& extension) {
   rates_.assign(band.size(), 0);
   weights_.assign(band.size(), 0);
-  for (std::size_t i = 0; i < band.size(); i++) {
-    const BoundaryFeet::Foot& foot = feet_[i];
-    if (!foot.exists()) continue;
-    rates_[i] = multiplier - foot.value(force_); // |grad_s psi| = 1
-    weights_[i] = band.taper()[i] * boundary_taper(foot.distance);
-  }
+  parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      const BoundaryFeet::Foot& foot = feet_[i];
+      if (!foot.exists()) continue;
+      rates_[i] = multiplier - foot.value(force_); // |grad_s psi| = 1
+      weights_[i] = band.taper()[i] * boundary_taper(foot.distance);
+    }
+  });
   extension.fill(band, rates_, weights_);
 }
 
