@@ -80,7 +80,6 @@ double Vesicle::leave_sphere() {
     std::span<double> c = phi_.coefficients();
     for (std::size_t s = 0; s < band_.size(); s++)
       c[band_.node()[s]] += depth * band_.taper()[s] * phases_->near_boundary(band_.node()[s]);
-    phi_.update_nodal();
     locate();
     surface_.curvatures(phi_, band_);
     integrate_all(false);
