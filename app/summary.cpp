@@ -28,6 +28,18 @@ std::string row(std::string_view name, std::string_view symbol, double from, dou
                      constraint.empty() ? "" : "   ", constraint);
 }
 
+std::string optional_row(std::string_view name, std::string_view symbol,
+                         const std::optional<double>& from, const std::optional<double>& to) {
+  return from && to ? row(name, symbol, *from, *to) : "";
+}
+
+std::string line_rows(const LineTerms& from, const LineTerms& to) {
+  return optional_row("", "of tension", from.tension, to.tension) +
+         optional_row("", "of kg", from.geodesic, to.geodesic) +
+         optional_row("", "of kn", from.normal, to.normal) +
+         optional_row("", "of tau_g", from.torsion, to.torsion);
+}
+
 std::string energy_rows(const Measures& start, const Measures& end) {
   std::string text = row("energy", "E", start.energy, end.energy);
   if (start.phases) {
@@ -36,8 +48,13 @@ std::string energy_rows(const Measures& start, const Measures& end) {
     text += row("", "of Lo", from.bending_energy_Lo, to.bending_energy_Lo);
     text += row("  Gaussian curvature", "", from.gaussian_energy, to.gaussian_energy);
     text += row("  phase boundary", "", from.line_energy, to.line_energy);
+    text += line_rows(from.line_terms, to.line_terms);
   }
   if (start.stretch) text += row("  stretch", "", start.stretch->energy, end.stretch->energy);
+  text += optional_row("  pressure", "-P V", start.pressure_energy, end.pressure_energy);
+  text += optional_row("  area difference", "", start.area_difference_energy,
+                       end.area_difference_energy);
+  text += optional_row("  films", "", start.film_energy, end.film_energy);
   return text + row("", "int K_M^2 dA", start.int_KM2, end.int_KM2);
 }
 

@@ -21,6 +21,11 @@ namespace
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 using Row = std::vector<std::pair<const char*, double>>;
 
+/** Terms of the energy that the solver knows, and tells in the field data where the scene has them. */
+constexpr const char* KnownTerms[] = { "gaussian_energy", "line_energy", "line_tension_energy",
+  "kg_energy", "kn_energy", "tau_g_energy", "stretch_energy", "pressure_energy",
+  "area_difference_energy", "film_energy" };
+
 Row RowOf(const lamella::ShapeMeasures& m, double time, vtkDataObject& about)
 {
   const auto known = [&](const char* name, double otherwise)
@@ -38,6 +43,13 @@ Row RowOf(const lamella::ShapeMeasures& m, double time, vtkDataObject& about)
         { "bending_Ld", m.phases->bending_energy_Ld },
         { "bending_Lo", m.phases->bending_energy_Lo }, { "line_length", m.phases->line_length } });
   }
+  for (const char* term : KnownTerms)
+  {
+    if (const auto energy = lamella::field_value(about, term))
+    {
+      row.emplace_back(term, *energy);
+    }
+  }
   return row;
 }
 
@@ -54,7 +66,7 @@ void Append(vtkTable& table, const Row& row)
   }
   else if (static_cast<std::size_t>(table.GetNumberOfColumns()) != row.size())
   {
-    throw lamella::InputError("phases must be there at all times or at none");
+    throw lamella::InputError("phases, and terms of the energy, must be there at all times or at none");
   }
   vtkIdType index = 0;
   for (const auto& [name, value] : row)

@@ -7,8 +7,8 @@
  * of them.
  *
  * Input: vtkImageData as for vtkMembraneSurface, phi, and psi where there are two phases. Field data
- * takes precedence over the properties, see there; `energy`, `P` and `sigma` in it, of a state of
- * vtkVesicleDynamics or of a reader, are passed on.
+ * takes precedence over the properties, see there; `energy`, its terms, `P` and `sigma` in it, of a
+ * state of vtkVesicleDynamics or of a reader, are passed on.
  *
  * Output: vtkTable, columns of double:
  * | column         | meaning, unit |
@@ -32,6 +32,16 @@
  * | A_Ld, A_Lo             | areas of the phases, right to second order in the spacing; length^2 |
  * | bending_Ld, bending_Lo | bending energies of the phases; energy |
  * | line_length            | of the phase boundary; length |
+ *
+ * And the other terms of the energy, those that the field data tells (docs/command-line.md):
+ * | column | meaning; energy |
+ * |--------|-----------------|
+ * | gaussian_energy | sum of gaussian_modulus int K dA |
+ * | line_energy | of the phase boundary, the sum of the next four |
+ * | line_tension_energy, kg_energy, kn_energy, tau_g_energy | term by term |
+ * | stretch_energy | of local stretch |
+ * | pressure_energy, area_difference_energy | of a given pressure, or multiplier |
+ * | film_energy | of the disjoining pressure of films |
  *
  * @sa vtkMembraneSurface vtkVesicleDynamics
  */

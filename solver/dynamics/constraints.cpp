@@ -178,8 +178,10 @@ double Constraints::drift(const Quantities& now, double time) const {
   return worst;
 }
 
-double Constraints::potential(const Quantities& now) const {
-  return (held_[0] ? 0 : -given_[0] * now[0]) + (held_[2] ? 0 : 0.5 * given_[2] * now[2]);
+std::optional<double> Constraints::potential(int quantity, const Quantities& now) const {
+  if (held_[quantity] || given_[quantity] == 0) return {};
+  const double of_unit = quantity == 0 ? -1 : 0.5;
+  return of_unit * given_[quantity] * now[quantity];
 }
 
 } // namespace lamella

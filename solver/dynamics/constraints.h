@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,8 +66,9 @@ public:
   /// Largest relative deviation of a held quantity from its target.
   double drift(const Quantities& now, double time) const;
 
-  /// Energy of the given multipliers: -P V, (2 h sigma_DA / 2) int K_M dA.
-  double potential(const Quantities& now) const;
+  /// Energy of a given multiplier, -P V or (2 h sigma_DA / 2) int K_M dA; nothing where the
+  /// quantity is held, or its multiplier 0.
+  std::optional<double> potential(int quantity, const Quantities& now) const;
 
 private:
   struct Course {

@@ -4,6 +4,18 @@
 
 namespace lamella {
 
+/// The terms of the line energy (Eq. 85); nothing where their modulus is 0.
+struct LineTerms {
+  std::optional<double> tension;  ///< kappa_l oint dl
+  std::optional<double> geodesic; ///< kappa_g oint kg dl
+  std::optional<double> torsion;  ///< kappa_tau oint tau_g dl
+  std::optional<double> normal;   ///< kappa_n oint kn dl
+
+  double sum() const {
+    return tension.value_or(0) + geodesic.value_or(0) + torsion.value_or(0) + normal.value_or(0);
+  }
+};
+
 /// What is known of the two phases of a membrane and of the boundary between them.
 struct PhaseMeasures {
   double bending_energy_Ld = 0, bending_energy_Lo = 0; ///< kappa/2 int (K_M - C)^2 dA of each
@@ -16,6 +28,7 @@ struct PhaseMeasures {
   double line_radius = 0;             ///< smallest line_length / 2 pi of a single closed boundary
   double max_line_speed = 0;          ///< largest |velocity of the boundary along the membrane|
   int domains_Ld = 0, domains_Lo = 0; ///< connected parts of each phase
+  LineTerms line_terms{};             ///< what line_energy is the sum of
 };
 
 /// What is known of the local stretch of a membrane.
@@ -45,6 +58,11 @@ struct Measures {
   int genus = 0;                          ///< sum over the components
   std::optional<PhaseMeasures> phases;    ///< where the scene has domains
   std::optional<StretchMeasures> stretch; ///< where the scene has a stretch modulus
+
+  // Terms of the energy, where the scene has them.
+  std::optional<double> pressure_energy{};        ///< -P V, under a pressure
+  std::optional<double> area_difference_energy{}; ///< 1/2 K_multiplier int K_M dA, of a given one
+  std::optional<double> film_energy{};            ///< of the disjoining pressure of films
 };
 
 } // namespace lamella

@@ -359,12 +359,21 @@ double Phases::gaussian_energy(const PhaseIntegrals& i) const {
 
 /// oint kg dl = int_Ld K dA - 2 pi chi, with the integral smeared as the force is: the boundary
 /// itself tells chi.
-double Phases::line_energy(const PhaseIntegrals& i) const {
+LineTerms Phases::line_terms(const PhaseIntegrals& i) const {
   constexpr double turn = 2 * std::numbers::pi;
-  const double kg = boundary_.integral([](const CurveGeometry& c) { return c.kg; });
-  const double chi = std::round((i.int_K_Ld - kg) / turn);
-  return line_.tension * boundary_.length() + line_.geodesic_modulus * (i.int_K_Ld - turn * chi) +
-         sharp_line_.energy(boundary_);
+  const auto integral = [&](double CurveGeometry::*curvature) {
+    return boundary_.integral([=](const CurveGeometry& c) { return c.*curvature; });
+  };
+  LineTerms terms;
+  if (line_.tension != 0) terms.tension = line_.tension * boundary_.length();
+  if (line_.geodesic_modulus != 0) {
+    const double chi = std::round((i.int_K_Ld - integral(&CurveGeometry::kg)) / turn);
+    terms.geodesic = line_.geodesic_modulus * (i.int_K_Ld - turn * chi);
+  }
+  if (line_.torsion_modulus != 0)
+    terms.torsion = line_.torsion_modulus * integral(&CurveGeometry::tau_g);
+  if (line_.normal_modulus != 0) terms.normal = line_.normal_modulus * integral(&CurveGeometry::kn);
+  return terms;
 }
 
 double Phases::line_integral_of_force() const {

@@ -57,8 +57,8 @@ public:
 
   /// `variation` empty: without that integral.
   PhaseIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation) const;
-  /// Of all line moduli; of the Gaussian moduli.
-  double line_energy(const PhaseIntegrals& integrals) const;
+  LineTerms line_terms(const PhaseIntegrals& integrals) const;
+  double line_energy(const PhaseIntegrals& integrals) const { return line_terms(integrals).sum(); }
   double gaussian_energy(const PhaseIntegrals& integrals) const;
 
   /// oint g.n dl: what the boundary's own force does to the area of Ld.

@@ -341,8 +341,9 @@ double Vesicle::energy() const {
       phases_ ? phases_->line_energy(phase_integrals_) + phases_->gaussian_energy(phase_integrals_)
               : 0;
   const double stretching = stretch_ ? stretch_->energy(surface_) : 0;
-  return integrals_.energy + interfacial + stretching +
-         constraints_.potential(quantities(integrals_)) + film_energy_;
+  const Quantities now = quantities(integrals_);
+  return integrals_.energy + interfacial + stretching + film_energy_ +
+         constraints_.potential(0, now).value_or(0) + constraints_.potential(2, now).value_or(0);
 }
 
 Measures Vesicle::measures(double time) const {
@@ -369,7 +370,8 @@ Measures Vesicle::measures(double time) const {
     p.bending_energy_Ld = i.bending_Ld;
     p.bending_energy_Lo = i.bending_Lo;
     p.gaussian_energy = phases_->gaussian_energy(i);
-    p.line_energy = phases_->line_energy(i);
+    p.line_terms = phases_->line_terms(i);
+    p.line_energy = p.line_terms.sum();
     p.sigma_Ld = multipliers_[1] + multipliers_[3];
     p.sigma_Lo = multipliers_[1];
     p.area_Ld = integrals_.area_Ld;
@@ -382,6 +384,9 @@ Measures Vesicle::measures(double time) const {
     m.sigma = (p.sigma_Ld * p.area_Ld + p.sigma_Lo * p.area_Lo) / A;
   }
   if (stretch_) m.stretch = stretch_->measures(surface_);
+  m.pressure_energy = constraints_.potential(0, quantities(integrals_));
+  m.area_difference_energy = constraints_.potential(2, quantities(integrals_));
+  if (film_.exists()) m.film_energy = film_energy_;
   const Topology topology = topology_of(grid(), phi_.nodal());
   m.components = topology.components;
   m.genus = topology.genus;

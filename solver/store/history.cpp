@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace lamella {
 namespace {
@@ -41,6 +43,21 @@ void append(Row& row, StretchMeasures& m) {
              {{"stretch_energy", &m.energy}, {"c_min", &m.least}, {"c_max", &m.greatest}});
 }
 
+/// The terms of the energy that not every scene has.
+std::vector<std::pair<std::string_view, std::optional<double>*>> optional_terms(Measures& m) {
+  std::vector<std::pair<std::string_view, std::optional<double>*>> terms{
+      {"pressure_energy", &m.pressure_energy},
+      {"area_difference_energy", &m.area_difference_energy},
+      {"film_energy", &m.film_energy}};
+  if (!m.phases) return terms;
+  LineTerms& line = m.phases->line_terms;
+  terms.insert(terms.end(), {{"line_tension_energy", &line.tension},
+                             {"kg_energy", &line.geodesic},
+                             {"kn_energy", &line.normal},
+                             {"tau_g_energy", &line.torsion}});
+  return terms;
+}
+
 /// Measures with the columns that a file has.
 Measures measures_in(const std::filesystem::path& file) {
   const std::vector<std::string> columns = read_columns(file);
@@ -50,6 +67,8 @@ Measures measures_in(const std::filesystem::path& file) {
   Measures measures;
   if (has("A_Ld")) measures.phases.emplace();
   if (has("c_min")) measures.stretch.emplace();
+  for (const auto& [column, term] : optional_terms(measures))
+    if (has(column)) term->emplace();
   return measures;
 }
 
@@ -88,6 +107,8 @@ Row row_of(Measures& m) {
           {"genus", &m.genus}};
   if (m.phases) append(row, *m.phases);
   if (m.stretch) append(row, *m.stretch);
+  for (const auto& [column, term] : optional_terms(m))
+    if (*term) row.push_back({column, &**term});
   return row;
 }
 

@@ -10,8 +10,8 @@
 
 namespace lamella {
 
-/// The columns of history.csv and of events.csv, with the values of one row. Those of phases and of
-/// stretch are there where the measures have them.
+/// The columns of history.csv and of events.csv, with the values of one row. Those of phases, of
+/// stretch and of terms of the energy are there where the measures have them.
 Row row_of(Measures& measures);
 Row row_of(Event& event);
 

@@ -458,6 +458,23 @@ TEST_F(HistoryStore, ReadsPhasesAndStretchWhereThereAreSome) {
   }
 }
 
+TEST_F(HistoryStore, KeepsTheTermsOfTheEnergyThatThereAre) {
+  Measures m = row_with_phases(1);
+  m.film_energy = 35;
+  m.phases->line_terms.tension = 36;
+  m.phases->line_terms.torsion = 37;
+  HistoryWriter(file(), m).add(m);
+  EXPECT_THAT(line_of(1, content_of(file())),
+              testing::EndsWith(",c_max,film_energy,line_tension_energy,tau_g_energy"));
+  EXPECT_THAT(line_of(2, content_of(file())), testing::EndsWith(",34,35,36,37"));
+  const Measures back = read_history(file()).at(0);
+  EXPECT_EQ(back.film_energy, 35);
+  EXPECT_EQ(back.phases->line_terms.tension, 36);
+  EXPECT_EQ(back.phases->line_terms.torsion, 37);
+  EXPECT_FALSE(back.pressure_energy || back.area_difference_energy);
+  EXPECT_FALSE(back.phases->line_terms.normal || back.phases->line_terms.geodesic);
+}
+
 TEST_F(HistoryStore, RefusesRowsOfOtherColumns) {
   HistoryWriter writer(file(), row_with_phases(0));
   EXPECT_THAT(message_of([&] { writer.add(row(1)); }),

@@ -105,6 +105,7 @@ TEST(MembraneMeasures, TellPhasesApart) {
   const auto image = image_of(frame);
   set_field_value(*image, "lo.bending_modulus", 5);
   set_field_value(*image, "sigma", 17);
+  set_field_value(*image, "kn_energy", -3);
   const auto table = measures_of(image);
   const double cap = 2 * pi * r * (r - z0), rest = 4 * pi * r * r - cap;
   EXPECT_NEAR(value(table, "A_Ld") / cap, 1, 2e-3);
@@ -114,6 +115,8 @@ TEST(MembraneMeasures, TellPhasesApart) {
   EXPECT_NEAR(value(table, "line_length") / (2 * pi * std::sqrt(r * r - z0 * z0)), 1, 1e-5);
   EXPECT_TRUE(std::isnan(value(table, "P"))) << "not that of a single phase";
   EXPECT_EQ(value(table, "sigma"), 17) << "known";
+  EXPECT_EQ(value(table, "kn_energy"), -3) << "known";
+  EXPECT_EQ(table->GetColumnByName("kg_energy"), nullptr);
 }
 
 TEST(MembraneMeasures, HaveARowForEachTime) {

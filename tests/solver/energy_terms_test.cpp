@@ -1,0 +1,78 @@
+// The terms of the energy, each for itself.
+#include "dynamics/simulation.h"
+#include "runs.h"
+
+#include <numbers>
+
+namespace lamella {
+namespace {
+
+const double pi = std::numbers::pi;
+
+double sum_of_terms(const Measures& m) {
+  const double phases = m.phases ? m.phases->gaussian_energy + m.phases->line_energy : 0;
+  return m.bending_energy + phases + (m.stretch ? m.stretch->energy : 0) +
+         m.pressure_energy.value_or(0) + m.area_difference_energy.value_or(0) +
+         m.film_energy.value_or(0);
+}
+
+/// A cap of Ld, a quarter of a sphere, with all there is.
+Scene sphere_with_everything(double radius) {
+  Scene scene = scene_of({.kind = ShapeKind::sphere, .radius = radius}, 48, 1e-4);
+  scene.domains = {.kind = DomainsKind::cap, .area_fraction = 0.25};
+  scene.ld = {2, -1, 3};
+  scene.lo = {4, 0, 1};
+  scene.line = {.tension = 5, .geodesic_modulus = 0.5, .torsion_modulus = 0.25, .normal_modulus = 2};
+  scene.stretch.modulus = 10;
+  scene.volume.constraint = Constraint::free;
+  scene.volume.pressure = -7;
+  scene.area_difference.multiplier = 1.5;
+  scene.contact.disjoining_pressure = 100;
+  return scene;
+}
+
+TEST(EnergyTerms, OfACapOnASphereAreExact) {
+  const double r = 0.6, cosine = 0.5, sine = std::sqrt(0.75), L = 2 * pi * r * sine;
+  const Measures m = Simulation(sphere_with_everything(r)).measures();
+  const LineTerms& line = m.phases->line_terms;
+  EXPECT_NEAR(*line.tension, 5 * L, 5e-3 * L);
+  EXPECT_NEAR(*line.geodesic, 0.5 * -cosine / (r * sine) * L, 5e-3);
+  EXPECT_NEAR(*line.normal, 2 * -1 / r * L, 2e-2);
+  EXPECT_NEAR(*line.torsion, 0, 1e-3);
+  EXPECT_NEAR(m.phases->gaussian_energy, 4 * pi * (0.25 * 3 + 0.75 * 1), 1e-2);
+  EXPECT_NEAR(*m.pressure_energy, 7 * 4. / 3 * pi * r * r * r, 1e-3);
+  EXPECT_NEAR(*m.area_difference_energy, 0.5 * 1.5 * -8 * pi * r, 2e-2);
+  EXPECT_NEAR(m.energy, sum_of_terms(m), 1e-12 * std::abs(m.energy));
+}
+
+TEST(EnergyTerms, AreThoseOfTheScene) {
+  const auto has = [](Scene scene) {
+    const Measures m = Simulation(scene).measures();
+    return std::array{m.pressure_energy.has_value(), m.area_difference_energy.has_value(),
+                      m.film_energy.has_value()};
+  };
+  using Terms = std::array<bool, 3>;
+  Scene scene = scene_of({.kind = ShapeKind::oblate, .reduced_volume = 0.8}, 32, 1e-4);
+  EXPECT_EQ(has(scene), (Terms{false, false, false}));
+  scene.contact.disjoining_pressure = 100;
+  EXPECT_EQ(has(scene), (Terms{false, false, true}));
+  scene.area_difference.multiplier = 1;
+  scene.volume.constraint = Constraint::free;
+  scene.volume.pressure = -3;
+  EXPECT_EQ(has(scene), (Terms{true, true, true}));
+  scene.area_difference.constraint = Constraint::fixed;
+  EXPECT_EQ(has(scene), (Terms{true, false, true})) << "held, not under the multiplier";
+}
+
+TEST(EnergyTerms, OfALineAreThoseWithAModulus) {
+  Scene scene = scene_of({.kind = ShapeKind::oblate, .reduced_volume = 0.9}, 32, 1e-4);
+  scene.domains.kind = DomainsKind::cap;
+  scene.line.normal_modulus = 1;
+  const Measures m = Simulation(scene).measures();
+  const LineTerms& line = m.phases->line_terms;
+  EXPECT_TRUE(line.normal && !line.tension && !line.geodesic && !line.torsion);
+  EXPECT_EQ(m.phases->line_energy, *line.normal);
+}
+
+} // namespace
+} // namespace lamella
