@@ -4,7 +4,6 @@
 #include "fields/scene_properties.h"
 #include "fields/serve.h"
 #include "fields/start_image.h"
-#include "fields/stored_frame.h"
 #include "fields/trajectory.h"
 #include "scene/scene_toml.h"
 
@@ -24,14 +23,11 @@ namespace
 constexpr std::array<std::string_view, 13> Sections = { "membrane", "domains", "ld", "lo", "line",
   "stretch", "volume", "area_difference", "contact", "run", "stop", "numerics", "output" };
 
-lamella::Trajectory Begin(lamella::Scene scene, const lamella::Frame& start)
+lamella::Trajectory Begin(const lamella::Scene& scene, lamella::Frame start)
 {
-  lamella::Frame frame = start;
-  frame.grid = scene.grid(); // to the last bit
-  const lamella::StoredFrame file(frame);
-  scene.shape.file = file.path();
   lamella::validate(scene);
-  return lamella::Trajectory(scene);
+  start.grid = scene.grid(); // to the last bit
+  return { scene, lamella::start_of(scene, std::move(start)) };
 }
 }
 

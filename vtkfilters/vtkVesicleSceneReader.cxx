@@ -18,15 +18,13 @@ vtkStandardNewMacro(vtkVesicleSceneReader);
 class vtkVesicleSceneReader::Run
 {
 public:
-  Run(lamella::Scene scene, const lamella::Trajectory::GoOn& goOn)
+  Run(const lamella::Scene& scene, const lamella::Trajectory::GoOn& goOn)
     : Parameters(lamella::to_toml(scene))
-    , Start(lamella::run_start_of(scene, goOn))
-    , Trajectory(scene)
+    , Trajectory(scene, lamella::open_start(scene, goOn))
   {
   }
 
   std::string Parameters;
-  std::unique_ptr<lamella::StoredFrame> Start;
   lamella::Trajectory Trajectory;
 };
 

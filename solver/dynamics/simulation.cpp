@@ -24,6 +24,22 @@ constexpr double memory = 0.9;
 constexpr double gauge_limit = 1.2;
 constexpr int steps_between_renormalisations = 5;
 constexpr int steps_between_responses = 4;
+
+/// Throws where a start lacks fields, or has them on other nodes.
+const Start& checked(const Start& start, const Scene& scene) {
+  const std::size_t nodes = scene.grid().size();
+  const auto check = [nodes](const char* name, const std::vector<double>& field) {
+    if (field.size() != nodes)
+      throw RunError(fmt::format("the start has {} values of {}; the grid has {} nodes",
+                                 field.size(), name, nodes));
+    if (!std::ranges::all_of(field, [](double x) { return std::isfinite(x); }))
+      throw RunError(fmt::format("{} of the start is not finite everywhere", name));
+  };
+  check("phi", start.phi);
+  if (scene.has_phases()) check("psi", start.psi);
+  if (!start.c.empty()) check("c", start.c);
+  return start;
+}
 } // namespace
 
 Simulation::Simulation(const Scene& scene) : Simulation(scene, start_of(scene)) {}
@@ -35,7 +51,8 @@ Simulation::Simulation(const Scene& scene, const Start& start)
            scene.has_phases() ? std::max(scene.ld.bending_modulus, scene.lo.bending_modulus)
                               : scene.membrane.bending_modulus,
            scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16}),
-      fourier_(scene.grid()), vesicle_(scene, start, fourier_), gauge_(scene.grid()),
+      fourier_(scene.grid()), vesicle_(scene, checked(start, scene), fourier_),
+      gauge_(scene.grid()),
       stepper_(scene.grid(), fourier_,
                scene.area_difference.constraint == Constraint::free && !scene.has_phases() ? 1 : 2),
       cells_(start.cells) {

@@ -21,6 +21,9 @@ class Simulation {
 public:
   /// Throws RunError where the start shape cannot be represented.
   explicit Simulation(const Scene& scene);
+  /// From fields in memory, whatever [shape] and [domains] say but for whether there are phases.
+  /// RunError also where the fields are not those that the scene needs, on its nodes.
+  Simulation(const Scene& scene, const Start& start);
 
   /// One time step, not beyond `latest` (> time()). Throws RunError when the run cannot go on;
   /// frame() and measures() then still give the state before the step.
@@ -39,8 +42,6 @@ public:
   const Grid& grid() const { return vesicle_.grid(); }
 
 private:
-  Simulation(const Scene& scene, const Start& start);
-
   // steps: simulation.cpp
   bool try_step(double dt, double latest);
   void predict_boundary(double dt);

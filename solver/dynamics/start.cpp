@@ -3,7 +3,6 @@
 #include "error.h"
 #include "scene/domains.h"
 #include "scene/shapes.h"
-#include "store/frame.h"
 
 #include <fmt/format.h>
 
@@ -16,20 +15,19 @@ std::string grid_text(const Grid& grid) {
                      grid.spacing);
 }
 
-Frame frame_on(const Grid& grid, const std::string& file) {
-  Frame frame = read_frame(file);
+void check_grid(const Frame& frame, const Grid& grid) {
   if (frame.grid != grid)
     throw RunError(
         fmt::format("the frame has {}, the scene {}; grid.nodes and grid.half_width must "
                     "be those of the frame",
                     grid_text(frame.grid), grid_text(grid)));
-  return frame;
 }
 
 /// The phases of a stored state, in the box of the frame that the membrane is from.
 std::vector<double> stored_psi(const Scene& scene, const Frame& membrane) {
   const std::string& own_file = scene.domains.file;
-  Frame frame = own_file.empty() ? membrane : frame_on(scene.grid(), own_file);
+  Frame frame = own_file.empty() ? membrane : read_frame(own_file);
+  check_grid(frame, scene.grid());
   if (frame.psi.empty())
     throw RunError(fmt::format("the frame {} has one phase; domains.kind must be \"none\", or "
                                "domains.file a frame with two phases",
@@ -40,8 +38,10 @@ std::vector<double> stored_psi(const Scene& scene, const Frame& membrane) {
   return std::move(frame.psi);
 }
 
-Start stored_start(const Scene& scene) {
-  Frame frame = frame_on(scene.grid(), scene.shape.file);
+} // namespace
+
+Start start_of(const Scene& scene, Frame frame) {
+  check_grid(frame, scene.grid());
   Start start{.cells = frame.cells};
   if (scene.has_phases()) start.psi = stored_psi(scene, frame);
   if (scene.stretch.modulus > 0) start.c = std::move(frame.c);
@@ -49,10 +49,8 @@ Start stored_start(const Scene& scene) {
   return start;
 }
 
-} // namespace
-
 Start start_of(const Scene& scene) {
-  if (scene.shape.kind == ShapeKind::frame) return stored_start(scene);
+  if (scene.shape.kind == ShapeKind::frame) return start_of(scene, read_frame(scene.shape.file));
   const std::vector<BulgedCap> bulges = bulged_caps(scene);
   Start start{.phi = initial_phi(scene.shape, scene.grid(), scene.perturbation, bulges)};
   if (scene.has_phases()) start.psi = initial_psi(scene);

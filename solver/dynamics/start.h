@@ -1,5 +1,6 @@
 #pragma once
 #include "scene/scene.h"
+#include "store/frame.h"
 
 #include <array>
 #include <optional>
@@ -22,5 +23,9 @@ struct Start {
 
 /// Throws RunError for a frame that does not fit the scene, StoreError for one that cannot be read.
 Start start_of(const Scene& scene);
+
+/// From a state in memory, in place of the file that a scene of kind "frame" names. Throws as
+/// above.
+Start start_of(const Scene& scene, Frame frame);
 
 } // namespace lamella

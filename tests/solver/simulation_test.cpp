@@ -2,6 +2,11 @@
 #include "error.h"
 #include "parallel.h"
 #include "runs.h"
+#include "store/frame.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <unistd.h>
 
 namespace lamella {
 namespace {
@@ -247,6 +252,48 @@ TEST(Simulation, LandsOnTheTimesAskedFor) {
     EXPECT_DOUBLE_EQ(sim.time(), goal);
     EXPECT_DOUBLE_EQ(sim.frame().time, goal);
   }
+}
+
+// -----------------------------------------------------------------------------------------------
+// starts from fields in memory
+
+std::string refusal(const Scene& scene, const Start& start) {
+  try {
+    Simulation simulation(scene, start);
+    return "none";
+  } catch (const RunError& error) {
+    return error.what();
+  }
+}
+
+TEST(StartInMemory, GoesOnAsFromAFile) {
+  Scene scene = scene_of(prolate(0.7, 0.8), 32, 1e-5);
+  Simulation earlier(scene);
+  earlier.step(1e-6);
+  const auto file = std::filesystem::temp_directory_path() /
+                    fmt::format("lamella-start-in-memory-{}.hdf", getpid());
+  write_frame(file, earlier.frame());
+  Simulation in_memory(scene, start_of(scene, earlier.frame()));
+  scene.shape = {.kind = ShapeKind::frame, .file = file.string()};
+  Simulation from_file(scene);
+  std::filesystem::remove(file);
+  EXPECT_EQ(in_memory.time(), 0);
+  in_memory.step(1e-6);
+  from_file.step(1e-6);
+  EXPECT_EQ(in_memory.measures().energy, from_file.measures().energy);
+  EXPECT_LT(in_memory.measures().energy, earlier.measures().energy);
+}
+
+TEST(StartInMemory, HasTheFieldsOfTheScene) {
+  Scene scene = scene_of(prolate(0.7, 0.8), 32, 1e-5);
+  Start start = start_of(scene);
+  start.phi.pop_back();
+  EXPECT_EQ(refusal(scene, start), "the start has 32767 values of phi; the grid has 32768 nodes");
+  start.phi.push_back(NAN);
+  EXPECT_EQ(refusal(scene, start), "phi of the start is not finite everywhere");
+  start.phi.back() = 1;
+  scene.domains.kind = DomainsKind::frame;
+  EXPECT_EQ(refusal(scene, start), "the start has 0 values of psi; the grid has 32768 nodes");
 }
 
 } // namespace

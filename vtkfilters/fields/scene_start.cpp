@@ -41,21 +41,19 @@ Scene open_scene(const std::string& name, const std::vector<std::string>& overri
   return scene;
 }
 
-std::unique_ptr<StoredFrame> run_start_of(Scene& scene, const Trajectory::GoOn& go_on) {
-  if (scene.shape.kind != ShapeKind::frame || !is_builtin(scene.shape.file)) return nullptr;
+Start open_start(const Scene& scene, const Trajectory::GoOn& go_on) {
+  if (scene.shape.kind != ShapeKind::frame || !is_builtin(scene.shape.file)) return start_of(scene);
   Scene earlier = builtin_scene(scene.shape.file);
   earlier.nodes = scene.nodes;
   earlier.half_width = scene.half_width;
   earlier.output.frames = 2;
   validate(earlier);
-  Trajectory trajectory(earlier);
+  Trajectory trajectory(earlier, open_start(earlier, go_on));
   const State end = trajectory.at(earlier.end_time, go_on);
   if (trajectory.failure())
     throw RunError(fmt::format("{}, where the scene starts, stopped at t = {:.6g}: {}",
                                earlier.name, trajectory.time(), *trajectory.failure()));
-  auto file = std::make_unique<StoredFrame>(end.frame);
-  scene.shape.file = file->path();
-  return file;
+  return start_of(scene, end.frame);
 }
 
 } // namespace lamella

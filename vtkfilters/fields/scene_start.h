@@ -1,9 +1,7 @@
 #pragma once
-#include "fields/stored_frame.h"
 #include "fields/trajectory.h"
 #include "scene/scene.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,9 +12,8 @@ namespace lamella {
 /// folder; their paths are then whole. Throws SceneError.
 Scene open_scene(const std::string& name, const std::vector<std::string>& overrides);
 
-/// The frame that such a scene starts from, if it is the end of a built-in scene: that runs first,
-/// on the grid of this one. Sets shape.file. Null where there is nothing to do. Throws SceneError,
-/// RunError.
-std::unique_ptr<StoredFrame> run_start_of(Scene& scene, const Trajectory::GoOn& go_on);
+/// What such a scene starts from. Where that is the end of a built-in scene, that runs first, on
+/// the grid of this one. Throws SceneError, RunError, StoreError.
+Start open_start(const Scene& scene, const Trajectory::GoOn& go_on);
 
 } // namespace lamella

@@ -52,7 +52,7 @@ Frame start_frame(const ImageVesicle& vesicle) {
 Scene with_start(Scene scene, const Frame& frame) {
   scene.nodes = frame.grid.nodes;
   scene.half_width = 0.5 * frame.grid.spacing * *std::ranges::min_element(scene.nodes);
-  scene.shape = {.kind = ShapeKind::frame};
+  scene.shape = {.kind = ShapeKind::frame, .file = "input"};
   scene.domains = {.kind = frame.psi.empty() ? DomainsKind::none : DomainsKind::frame};
   return scene;
 }

@@ -1,7 +1,6 @@
 #include "fields/trajectory.h"
 
 #include "error.h"
-#include "fields/stored_frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +24,9 @@ Ramp rest_of(Ramp ramp, double time) {
 }
 
 /// The scene from a stored state on, its clock at 0 there.
-Scene rest_of(Scene scene, const State& state, const StoredFrame& file) {
-  const double time = state.frame.time;
+Scene rest_of(Scene scene, double time) {
   if (scene.numerics.max_time_step == 0) scene.numerics.max_time_step = scene.end_time / 16;
-  scene.shape = {.kind = ShapeKind::frame, .file = file.path()};
+  scene.shape = {.kind = ShapeKind::frame};
   scene.perturbation = {};
   if (scene.has_phases()) scene.domains = {.kind = DomainsKind::frame};
   scene.curvature_start_time = std::max(0.0, scene.curvature_start_time - time);
@@ -50,8 +48,8 @@ std::vector<double> stored_times(const Scene& scene) {
   return times;
 }
 
-Trajectory::Trajectory(const Scene& scene)
-    : scene_(scene), times_(stored_times(scene)), simulation_(scene),
+Trajectory::Trajectory(const Scene& scene, const Start& start)
+    : scene_(scene), times_(stored_times(scene)), simulation_(scene, start),
       stopping_(scene.stop), history_{simulation_.measures()} {
   stored_.push_back(now());
 }
@@ -99,9 +97,9 @@ bool Trajectory::ended_by_rule() {
 
 State Trajectory::between(std::size_t stored, double time, const GoOn& go_on) const {
   const State& from = stored_[stored];
-  const StoredFrame file(from.frame);
-  Simulation simulation(rest_of(scene_, from, file));
   const double begin = from.frame.time, goal = time - begin;
+  const Scene rest = rest_of(scene_, begin);
+  Simulation simulation(rest, start_of(rest, from.frame));
   while (goal - simulation.time() > rounding * goal && go_on(begin + simulation.time()))
     simulation.step(goal);
   State state{simulation.frame(), simulation.measures()};

@@ -27,7 +27,7 @@ public:
   using GoOn = std::function<bool(double time)>;
 
   /// Throws RunError where the scene cannot start.
-  explicit Trajectory(const Scene& scene);
+  Trajectory(const Scene& scene, const Start& start);
 
   /// The state at a time, between stored ones by going on from the one before. An earlier one where
   /// the scene's rules or an error ended the run, or `go_on` the search. Throws RunError where the
