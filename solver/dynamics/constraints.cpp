@@ -46,6 +46,25 @@ void Constraints::list_held() {
     if (held_[i]) indices_.push_back(i);
 }
 
+Constraints::State Constraints::state() const {
+  State s;
+  for (int i = 0; i < 4; i++) {
+    s.held[i] = held_[i];
+    s.factor[i] = courses_[i].factor;
+    s.start[i] = courses_[i].start;
+  }
+  return s;
+}
+
+void Constraints::restore(const State& s) {
+  for (int i = 0; i < 4; i++) {
+    held_[i] = s.held[i] != 0;
+    courses_[i].factor = s.factor[i];
+    courses_[i].start = s.start[i];
+  }
+  list_held();
+}
+
 bool Constraints::set_out(double time, const Quantities& now) {
   Course& course = courses_[2];
   if (held_[2] || course.constraint != Constraint::ramped ||

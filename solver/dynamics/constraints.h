@@ -31,6 +31,15 @@ class Constraints {
 public:
   explicit Constraints(const Scene& scene);
 
+  /// What does not follow from the scene: where the targets set out from, and what is held.
+  struct State {
+    std::array<int, 4> held{};      ///< 0 or 1
+    std::array<double, 4> factor{}; ///< the quantity for a reduced value of 1
+    std::array<double, 4> start{};  ///< reduced value
+  };
+  State state() const;
+  void restore(const State& state);
+
   /// What the start has; targets set out from there.
   void begin(const Quantities& start);
 

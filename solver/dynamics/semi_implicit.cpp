@@ -17,12 +17,12 @@ double* numbers(std::complex<double>* modes) { return reinterpret_cast<double*>(
 } // namespace
 
 SemiImplicit::SemiImplicit(const Grid& grid, Fourier& fourier, int responses)
-    : grid_(grid), fourier_(fourier), rate_(fourier.modes(), 0.0),
-      spectral_increment_(fourier.modes(), 0.0), increment_(grid.size(), 0.0),
-      previous_(grid.size(), 0.0), before_(grid.size(), 0.0) {
-  for (int i = 0; i < responses; i++)
-    responses_.push_back(
-        {Array<std::complex<double>>(fourier.modes(), 0.0), Array<double>(grid.size(), 0.0)});
+    : grid_(grid), fourier_(fourier), previous_(grid.size(), 0.0), before_(grid.size(), 0.0) {
+  const Array<std::complex<double>> modes(fourier.modes(), 0.0);
+  const Array<double> nodal(grid.size(), 0.0);
+  memory_.rate = memory_.increment = modes;
+  memory_.nodal_increment = nodal;
+  memory_.responses.assign(responses, {modes, nodal});
   none_.assign(2 * fourier.row_modes(), 0.0);
   auto symbol = [&](int axis, int m) {
     return std::max(least_spline_symbol, fourier.spline_symbol(axis, m));
@@ -45,7 +45,7 @@ SpectralRow SemiImplicit::row(int ky, int kz) const {
           inv_symbol_x_.data(),
           k2_[0][ky] + k2_[1][kz],
           1 / (symbol_[0][ky] * symbol_[1][kz] * double(grid_.size())),
-          dt_,
+          memory_.dt,
           ratio_,
           implicit_.stiffness,
           implicit_.tension,
@@ -55,27 +55,30 @@ SpectralRow SemiImplicit::row(int ky, int kz) const {
 }
 
 void SemiImplicit::predict(const Extension& rates, double dt, const ImplicitSymbol& symbol) {
-  ratio_ = dt_ > 0 ? dt / dt_ : 0;
-  dt_ = dt;
+  ratio_ = memory_.dt > 0 ? dt / memory_.dt : 0;
+  memory_.dt = dt;
   implicit_ = symbol;
-  increment_.swap(previous_);
+  memory_.nodal_increment.swap(previous_);
   const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
   auto step = [&](int ky, int kz, std::complex<double>* modes) {
     const std::size_t at = fourier_.row_index(ky, kz);
     kernels().spectral_row(
-        row(ky, kz), numbers(modes), numbers(&rate_[at]), numbers(&spectral_increment_[at]),
-        responses_.empty() ? none_.data() : numbers(&responses_[0].spectral[at]), last_factor_);
+        row(ky, kz), numbers(modes), numbers(&memory_.rate[at]), numbers(&memory_.increment[at]),
+        memory_.responses.empty() ? none_.data() : numbers(&memory_.responses[0].modes[at]),
+        memory_.last_factor);
   };
   fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step,
-                 [&](int k, const double* in) { std::copy_n(in, plane, &increment_[k * plane]); });
+                 [&](int k, const double* in) {
+                   std::copy_n(in, plane, &memory_.nodal_increment[k * plane]);
+                 });
 }
 
 void SemiImplicit::respond(int which, const Extension& rates) {
   const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
-  Response& response = responses_[which];
+  Response& response = memory_.responses[which];
   auto step = [&](int ky, int kz, std::complex<double>* modes) {
     kernels().euler_row(row(ky, kz), numbers(modes));
-    std::copy_n(modes, fourier_.row_modes(), &response.spectral[fourier_.row_index(ky, kz)]);
+    std::copy_n(modes, fourier_.row_modes(), &response.modes[fourier_.row_index(ky, kz)]);
   };
   fourier_.apply(
       [&](int k, double* out) { rates.plane(k, out); }, step,
@@ -85,36 +88,39 @@ void SemiImplicit::respond(int which, const Extension& rates) {
 void SemiImplicit::apply(LevelSet& phi, std::span<const double> factors, double constant) {
   double* c = phi.coefficients().data();
   parallel_for(grid_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t r = 0; r < responses_.size(); r++) {
-      const double* response = responses_[r].nodal.data();
-      for (std::size_t i = begin; i < end; i++) increment_[i] += factors[r] * response[i];
+    for (std::size_t r = 0; r < memory_.responses.size(); r++) {
+      const double* response = memory_.responses[r].nodal.data();
+      for (std::size_t i = begin; i < end; i++)
+        memory_.nodal_increment[i] += factors[r] * response[i];
     }
     for (std::size_t i = begin; i < end; i++) {
-      increment_[i] += constant;
+      memory_.nodal_increment[i] += constant;
       before_[i] = c[i];
-      c[i] += increment_[i];
+      c[i] += memory_.nodal_increment[i];
     }
   });
-  last_factor_ = responses_.empty()
-                     ? 0
-                     : factors[0]; // the next predict() adds it while it reads the rows anyway
-  for (std::size_t r = 1; r < responses_.size(); r++)
-    for (std::size_t i = 0; i < spectral_increment_.size(); i++)
-      spectral_increment_[i] += factors[r] * responses_[r].spectral[i];
-  spectral_increment_[0] += constant;
+  memory_.last_factor =
+      memory_.responses.empty()
+          ? 0
+          : factors[0]; // the next predict() adds it while it reads the rows anyway
+  for (std::size_t r = 1; r < memory_.responses.size(); r++)
+    for (std::size_t i = 0; i < memory_.increment.size(); i++)
+      memory_.increment[i] += factors[r] * memory_.responses[r].modes[i];
+  memory_.increment[0] += constant;
 }
 
 void SemiImplicit::rescale(double factor) {
-  for (auto* modes : {&rate_, &spectral_increment_})
+  for (auto* modes : {&memory_.rate, &memory_.increment})
     for (auto& m : *modes) m *= factor;
-  for (Response& response : responses_)
-    for (auto& m : response.spectral) m *= factor;
-  for (double& d : increment_) d *= factor;
+  for (Response& response : memory_.responses)
+    for (auto& m : response.modes) m *= factor;
+  for (double& d : memory_.nodal_increment) d *= factor;
 }
 
 void SemiImplicit::shift(const std::array<int, 3>& cells) {
-  for (auto* values : {&increment_, &previous_, &before_}) lamella::shift(grid_, cells, *values);
-  for (Response& response : responses_) lamella::shift(grid_, cells, response.nodal);
+  for (auto* values : {&memory_.nodal_increment, &previous_, &before_})
+    lamella::shift(grid_, cells, *values);
+  for (Response& response : memory_.responses) lamella::shift(grid_, cells, response.nodal);
   auto phase = [&](int axis, int m) {
     return std::polar(1.0, 2 * std::numbers::pi * m * cells[axis] / grid_.nodes[axis]);
   };
@@ -124,9 +130,9 @@ void SemiImplicit::shift(const std::array<int, 3>& cells) {
       for (int kx = 0; kx < fourier_.row_modes(); kx++) {
         const std::size_t at = fourier_.row_index(ky, kz) + kx;
         const std::complex<double> f = across * phase(0, kx);
-        rate_[at] *= f;
-        spectral_increment_[at] *= f;
-        for (Response& response : responses_) response.spectral[at] *= f;
+        memory_.rate[at] *= f;
+        memory_.increment[at] *= f;
+        for (Response& response : memory_.responses) response.modes[at] *= f;
       }
     }
 }

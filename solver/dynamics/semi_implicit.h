@@ -23,6 +23,19 @@ struct ImplicitSymbol {
 /// A step is made of predict(), respond() and apply(), in this order.
 class SemiImplicit {
 public:
+  struct Response {
+    Array<std::complex<double>> modes; ///< of the coefficients
+    Array<double> nodal;               ///< coefficients at the nodes
+  };
+  /// What the next step takes from those before.
+  struct Memory {
+    double dt = 0;                               ///< of the last step; 0: there is no history
+    Array<std::complex<double>> rate, increment; ///< of the last step, in Fourier space
+    Array<double> nodal_increment;               ///< the same increment at the nodes
+    std::vector<Response> responses;
+    double last_factor = 0; ///< of the first response, still missing in `increment`
+  };
+
   /// `responses`: to how many constraint forces.
   SemiImplicit(const Grid& grid, Fourier& fourier, int responses);
 
@@ -40,8 +53,8 @@ public:
 
   /// Coefficients at the nodes: of the step under way from predict() on, of the last step after
   /// apply().
-  std::span<const double> increment() const { return increment_; }
-  std::span<const double> response(int which) const { return responses_[which].nodal; }
+  std::span<const double> increment() const { return memory_.nodal_increment; }
+  std::span<const double> response(int which) const { return memory_.responses[which].nodal; }
   /// Of the step before.
   std::span<const double> previous_increment() const { return previous_; }
   /// Coefficients before the last apply(): what to go back to when the step went wrong.
@@ -56,7 +69,11 @@ public:
   void shift(const std::array<int, 3>& cells);
 
   /// Forgets the steps before: phi was changed by other means.
-  void restart() { dt_ = 0; }
+  void restart() { memory_.dt = 0; }
+
+  const Memory& memory() const { return memory_; }
+  /// Goes on as the stepper that had this memory, on the same grid with as many responses.
+  void remember(Memory memory) { memory_ = std::move(memory); }
 
 private:
   SpectralRow row(int ky, int kz) const;
@@ -66,16 +83,10 @@ private:
   std::vector<double> none_;               // a row of no correction
   std::vector<double> kx2_, inv_symbol_x_; // each number twice: real and imaginary part
   std::vector<double> k2_[2], symbol_[2];  // along y and z
-  struct Response {
-    Array<std::complex<double>> spectral;
-    Array<double> nodal;
-  };
-  Array<std::complex<double>> rate_, spectral_increment_;
-  Array<double> increment_, previous_, before_;
-  std::vector<Response> responses_;
+  Memory memory_;
+  Array<double> previous_, before_;
   ImplicitSymbol implicit_;
-  double dt_ = 0, ratio_ = 0;
-  double last_factor_ = 0; // of the first response, still missing in spectral_increment_
+  double ratio_ = 0;
 };
 
 } // namespace lamella

@@ -44,18 +44,23 @@ const Start& checked(const Start& start, const Scene& scene) {
 
 Simulation::Simulation(const Scene& scene) : Simulation(scene, start_of(scene)) {}
 
+StepControl Simulation::control_of(const Scene& scene) {
+  const double stiffness = scene.has_phases()
+                               ? std::max(scene.ld.bending_modulus, scene.lo.bending_modulus)
+                               : scene.membrane.bending_modulus;
+  const double longest =
+      scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16;
+  return StepControl({scene.numerics.tolerance, scene.grid().spacing, stiffness, longest});
+}
+
+int Simulation::responses_of(const Scene& scene) {
+  return scene.area_difference.constraint == Constraint::free && !scene.has_phases() ? 1 : 2;
+}
+
 Simulation::Simulation(const Scene& scene, const Start& start)
-    : contact_(scene.contact),
-      control_(
-          {scene.numerics.tolerance, scene.grid().spacing,
-           scene.has_phases() ? std::max(scene.ld.bending_modulus, scene.lo.bending_modulus)
-                              : scene.membrane.bending_modulus,
-           scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16}),
-      fourier_(scene.grid()), vesicle_(scene, checked(start, scene), fourier_),
-      gauge_(scene.grid()),
-      stepper_(scene.grid(), fourier_,
-               scene.area_difference.constraint == Constraint::free && !scene.has_phases() ? 1 : 2),
-      cells_(start.cells) {
+    : contact_(scene.contact), control_(control_of(scene)), fourier_(scene.grid()),
+      vesicle_(scene, checked(start, scene), fourier_), gauge_(scene.grid()),
+      stepper_(scene.grid(), fourier_, responses_of(scene)), cells_(start.cells) {
   if (scene.has_phases()) psi_stepper_.emplace(scene.grid(), fourier_, 0);
   if (vesicle_.stretch()) c_stepper_.emplace(scene.grid(), fourier_, 0);
   if (vesicle_.drift(0) > hopeless_drift) throw RunError(why_not_kept());

@@ -13,6 +13,23 @@
 
 namespace lamella {
 
+/// All that a simulation needs to go on as if it had never been interrupted, to the last bit.
+struct SimulationState {
+  Measures measures;
+  std::vector<Event> events;
+  Vesicle::State vesicle;
+  SemiImplicit::Memory stepper;
+  std::optional<SemiImplicit::Memory> psi_stepper, c_stepper;
+  Quantities excess = Quantities::Zero();
+  double error = 0, last_dt = 0, response_dt = 0;
+  long steps = 0, renormalised = 0, next_parting = 0, next_search = 0;
+  std::array<int, 3> cells{};
+  Topology topology;
+  std::vector<Domain> domains;
+  std::vector<CriticalPoint> inside, outside; ///< without the band entries around them
+  std::string why_not_on;
+};
+
 /// A vesicle in time: the state of a scene, advanced step by step.
 ///
 /// After construction and after every step the state is on its constraints and measured. The state
@@ -24,6 +41,11 @@ public:
   /// From fields in memory, whatever [shape] and [domains] say but for whether there are phases.
   /// RunError also where the fields are not those that the scene needs, on its nodes.
   Simulation(const Scene& scene, const Start& start);
+
+  /// Goes on from a state of a simulation of this scene. Throws RunError for one that does not fit.
+  Simulation(const Scene& scene, const SimulationState& state);
+  /// After at least one step (at its start a simulation is its scene), the last of them successful.
+  SimulationState state() const;
 
   /// One time step, not beyond `latest` (> time()). Throws RunError when the run cannot go on;
   /// frame() and measures() then still give the state before the step.
@@ -42,6 +64,9 @@ public:
   const Grid& grid() const { return vesicle_.grid(); }
 
 private:
+  static StepControl control_of(const Scene& scene);
+  static int responses_of(const Scene& scene);
+
   // steps: simulation.cpp
   bool try_step(double dt, double latest);
   void predict_boundary(double dt);

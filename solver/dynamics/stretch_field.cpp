@@ -25,6 +25,11 @@ StretchField::StretchField(double modulus, const Grid& grid, std::span<const dou
   c_.fit(c, fourier);
 }
 
+void StretchField::restore(std::span<const double> c, double lipid) {
+  std::ranges::copy(c, c_.coefficients().begin());
+  lipid_ = lipid;
+}
+
 void StretchField::sample(const SurfaceGeometry& surface) {
   const std::size_t n = surface.size();
   for (auto* a : {&value_, &lap_, &slope2_}) a->resize(n);
@@ -44,10 +49,11 @@ void StretchField::sample(const SurfaceGeometry& surface) {
       lap_[begin + i] = at(4) + at(5) + at(6) - twice + surface.KM()[begin + i] * along;
     }
   });
-  if (lipid_ == 0) lipid_ = lipid(surface);
+  if (lipid_ == 0) lipid_ = integral(surface);
 }
 
-double StretchField::lipid(const SurfaceGeometry& surface) const {
+/// int c dA
+double StretchField::integral(const SurfaceGeometry& surface) const {
   double sum = 0;
   for (std::size_t i = 0; i < value_.size(); i++) sum += surface.weight()[i] * value_[i];
   return sum;
@@ -86,7 +92,7 @@ void StretchField::extend(const NarrowBand& band, const SurfaceGeometry& surface
     for (std::size_t i = begin; i < end; i++) off_[i] = t[i - begin] - c_.nodal()[band.node()[i]];
   });
   extension.fill(band, off_);
-  const double missing = (lipid_ - lipid(surface)) / [&] {
+  const double missing = (lipid_ - integral(surface)) / [&] {
     double area = 0;
     for (const double w : surface.weight()) area += w;
     return area;

@@ -38,18 +38,22 @@ public:
   StretchMeasures measures(const SurfaceGeometry& surface) const;
   double energy(const SurfaceGeometry& surface) const { return measures(surface).energy; }
   const StretchEnergy& law() const { return law_; }
+  /// int c dA as it was at the start; 0: not known yet.
+  double lipid() const { return lipid_; }
+  /// Goes on from stored coefficients of c and their lipid().
+  void restore(std::span<const double> c, double lipid);
   LevelSet& c() { return c_; }
   const LevelSet& c() const { return c_; }
 
 private:
-  double lipid(const SurfaceGeometry& surface) const;
+  double integral(const SurfaceGeometry& surface) const;
 
   StretchEnergy law_;
   SmoothFit fit_;
   LevelSet c_;
   std::vector<double> value_, lap_, slope2_; // at the samples: c, Lap_s c, |grad_s c|^2
   std::vector<double> off_;
-  double lipid_ = 0; // int c dA, as it was at the start; 0: not known yet
+  double lipid_ = 0;
 };
 
 } // namespace lamella

@@ -31,12 +31,15 @@ constexpr double far_displacement = 0.02;
 double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 } // namespace
 
-Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier)
+/// Without a membrane yet.
+Vesicle::Vesicle(const Scene& scene)
     : bending_{scene.membrane.bending_modulus, scene.membrane.spontaneous_curvature},
       film_{scene.contact.disjoining_pressure, scene.contact.disjoining_range}, constraints_(scene),
       phi_(scene.grid()), band_(scene.grid(), band_half_width), extension_(scene.grid()),
       surface_(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside(),
-               scene.has_phases()) {
+               scene.has_phases()) {}
+
+Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Vesicle(scene) {
   std::ranges::copy(start.phi, phi_.coefficients().begin());
   phi_.fit(start.phi, fourier);
   if (scene.has_phases()) phases_.emplace(scene, start.psi, fourier);
@@ -64,6 +67,42 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier)
   const Quantities corrected = quantities(integrals_);
   measure_forces(0);
   if (phases_) set_quantities(corrected);
+}
+
+Vesicle::State Vesicle::state() const {
+  State state = origin_;
+  state.constraints = constraints_.state();
+  if (!stretch_) return state;
+  const std::span<const double> c = stretch_->c().coefficients();
+  state.c.assign(c.begin(), c.end());
+  state.lipid = stretch_->lipid();
+  return state;
+}
+
+Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& fourier)
+    : Vesicle(scene) {
+  std::ranges::copy(state.phi, phi_.coefficients().begin());
+  if (scene.has_phases()) {
+    phases_.emplace(scene, state.psi, fourier);
+    std::ranges::copy(state.psi, phases_->psi().coefficients().begin());
+  }
+  if (scene.stretch.modulus > 0) {
+    stretch_.emplace(scene.stretch.modulus, scene.grid(), state.c, fourier);
+    stretch_->restore(state.c, state.lipid);
+  }
+  band_.restore(state.band);
+  constraints_.restore(state.constraints);
+  measure(time);
+}
+
+void Vesicle::note_origin() {
+  if (getenv("NOREC")) return;
+  const std::span<const double> phi = phi_.coefficients();
+  origin_.phi.assign(phi.begin(), phi.end());
+  band_.store(origin_.band);
+  if (!phases_) return;
+  const std::span<const double> psi = phases_->psi().coefficients();
+  origin_.psi.assign(psi.begin(), psi.end());
 }
 
 /// A sphere cannot lose volume at a given area, and nothing in its curvature says where to: the
@@ -94,6 +133,7 @@ double Vesicle::leave_sphere() {
 /// Second derivatives suffice to measure what it is off by; what is recorded is measured after the
 /// correction. Returns the excess before it.
 Quantities Vesicle::measure(double time) {
+  note_origin();
   locate();
   surface_.curvatures(phi_, band_);
   integrate_all(false);

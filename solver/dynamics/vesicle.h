@@ -24,6 +24,18 @@ class Vesicle {
 public:
   Vesicle(const Scene& scene, const Start& start, Fourier& fourier);
 
+  /// All that the membrane is found from: what the last measurement began with. (What it found is
+  /// many times as much, and comes out the same when it is made again.)
+  struct State {
+    Array<double> phi, psi, c; ///< coefficients; psi and c empty where the scene has none
+    double lipid = 0;          ///< int c dA at the start
+    NarrowBand::State band;
+    Constraints::State constraints;
+  };
+  State state() const;
+  /// The membrane whose state() it was after it was measured at a time, to the last bit.
+  Vesicle(const Scene& scene, const State& state, double time, Fourier& fourier);
+
   /// Finds everything that is known of the membrane after phi changed a little, having brought it
   /// onto its constraints at a time. Returns how far off them it was.
   Quantities measure(double time);
@@ -78,6 +90,8 @@ public:
   std::vector<double> grad_of_entries() const;
 
 private:
+  explicit Vesicle(const Scene& scene);
+
   /// One way to displace the membrane.
   struct Direction {
     std::vector<double> nodal; ///< change of phi at the band entries, tapered
@@ -88,6 +102,7 @@ private:
   static constexpr int directions = 4, with_boundary = 3;
 
   double leave_sphere();
+  void note_origin();
   void locate();
   void locate_membrane();
   void lead_to_constraints(double time);
@@ -113,6 +128,7 @@ private:
   Multipliers multipliers_ = Multipliers::Zero();
   PhaseIntegrals phase_integrals_;
   std::array<Direction, directions> directions_;
+  State origin_;                  // of the last measurement; phi, psi and the band only
   bool delicate_ = false;         // the constraints, as last seen
   Array<double> field_;           // on the grid; 0 off the band
   std::vector<double> variation_; // F at the samples

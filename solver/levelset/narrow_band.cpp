@@ -46,6 +46,21 @@ void NarrowBand::clear() {
   std::ranges::fill(plane_begin_, 0);
 }
 
+void NarrowBand::store(State& state) const {
+  state.node = node_;
+  state.x = px_;
+  state.y = py_;
+  state.z = pz_;
+}
+
+void NarrowBand::restore(const State& state) {
+  clear();
+  std::vector<Entry> entries;
+  for (std::size_t s = 0; s < state.node.size(); s++)
+    entries.push_back({state.node[s], {state.x[s], state.y[s], state.z[s]}, 0});
+  fill(entries);
+}
+
 double NarrowBand::distance_at(const Vec3& x, double limit) const {
   int base[3];
   double t[3];
@@ -228,13 +243,17 @@ void NarrowBand::rebuild(std::vector<Entry>& added) {
   kept.insert(kept.end(), added.begin() + std::ptrdiff_t(a), added.end());
   for (const Entry& e : kept) slot_[e.node] = unset;
   std::erase_if(kept, [=](const Entry& e) { return e.distance > reach; });
+  fill(kept);
+}
 
-  const std::size_t n = kept.size();
+/// Makes these the band, in the order of the grid; nobody else is in it.
+void NarrowBand::fill(std::span<const Entry> entries) {
+  const std::size_t n = entries.size();
   node_.resize(n);
   for (auto* array : {&x_, &y_, &z_, &px_, &py_, &pz_, &distance_, &taper_}) array->resize(n);
   parallel_for(n, chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++) {
-      const Entry& e = kept[s];
+      const Entry& e = entries[s];
       const Vec3 at = grid_.position(e.node);
       slot_[e.node] = int(s);
       node_[s] = e.node;

@@ -23,6 +23,14 @@ public:
   /// Forget everything: the next update() starts anew.
   void clear();
 
+  /// All that update() knows of the band before: nodes in ascending order and their nearest points.
+  struct State {
+    std::vector<int> node;
+    Array<double> x, y, z; ///< of the nearest points
+  };
+  void store(State& state) const;
+  void restore(const State& state);
+
   const Grid& grid() const { return grid_; }
   std::size_t size() const { return node_.size(); }
   std::span<const int> node() const { return node_; }
@@ -38,8 +46,8 @@ public:
   Points points() { return {px_.data(), py_.data(), pz_.data()}; }
   /// |x - p|, negative inside; lengths.
   std::span<const double> distance() const { return distance_; }
-  /// The same between the nodes, in [-limit, limit]: trilinear, exact for flat sheets. Points off the
-  /// band count as deep inside.
+  /// The same between the nodes, in [-limit, limit]: trilinear, exact for flat sheets. Points off
+  /// the band count as deep inside.
   double distance_at(const Vec3& x, double limit) const;
 
   /// 1 on the membrane and near it, falling smoothly to 0 at the edge of the band.
@@ -58,6 +66,7 @@ private:
   std::vector<Entry> seeds(const LevelSet& phi) const;
   std::vector<Entry> neighbours(std::span<const Entry> frontier) const;
   void rebuild(std::vector<Entry>& added);
+  void fill(std::span<const Entry> entries);
   void finish(const LevelSet& phi);
 
   Grid grid_;

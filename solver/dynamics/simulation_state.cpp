@@ -1,0 +1,116 @@
+#include "dynamics/simulation.h"
+#include "error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+// Interrupting a simulation and going on.
+namespace lamella {
+
+namespace {
+
+[[noreturn]] void refuse(std::string_view what) {
+  throw RunError(fmt::format("the stored state does not fit the scene: {}", what));
+}
+
+void check_size(std::string_view what, std::size_t size, std::size_t expected) {
+  if (size != expected) refuse(fmt::format("{} has {} values, not {}", what, size, expected));
+}
+
+/// Nodes of the grid in ascending order, their nearest points in the box.
+void check_fits(const NarrowBand::State& band, const Grid& grid) {
+  if (band.node.empty()) refuse("there is no membrane");
+  if (band.node.front() < 0 || std::size_t(band.node.back()) >= grid.size() ||
+      !std::ranges::is_sorted(band.node, std::ranges::less_equal{}))
+    refuse("nodes out of order");
+  const Array<double>* points[]{&band.x, &band.y, &band.z};
+  for (int d = 0; d < 3; d++) {
+    check_size("the band", points[d]->size(), band.node.size());
+    const double side = 0.5 * grid.length(d);
+    if (!std::ranges::all_of(*points[d], [=](double x) { return std::abs(x) <= side; }))
+      refuse("the membrane leaves the box");
+  }
+}
+
+void check_fits(const SemiImplicit::Memory& memory, const SemiImplicit::Memory& like) {
+  check_size("a rate", memory.rate.size(), like.rate.size());
+  check_size("an increment", memory.increment.size(), like.increment.size());
+  check_size("an increment", memory.nodal_increment.size(), like.nodal_increment.size());
+  check_size("the list of responses", memory.responses.size(), like.responses.size());
+  for (std::size_t i = 0; i < memory.responses.size(); i++) {
+    check_size("a response", memory.responses[i].modes.size(), like.responses[i].modes.size());
+    check_size("a response", memory.responses[i].nodal.size(), like.responses[i].nodal.size());
+  }
+}
+
+void check_fits(const SimulationState& s, const Scene& scene) {
+  const Grid grid = scene.grid();
+  const bool phases = scene.has_phases(), stretch = scene.stretch.modulus > 0;
+  check_size("phi", s.vesicle.phi.size(), grid.size());
+  check_size("psi", s.vesicle.psi.size(), phases ? grid.size() : 0);
+  check_size("c", s.vesicle.c.size(), stretch ? grid.size() : 0);
+  if (phases != s.psi_stepper.has_value() || phases != s.measures.phases.has_value())
+    refuse("the number of phases");
+  if (stretch != s.c_stepper.has_value() || stretch != s.measures.stretch.has_value())
+    refuse("the stretch modulus");
+  if (s.steps < 1) refuse("it has made no step");
+  check_fits(s.vesicle.band, grid);
+}
+
+const SimulationState& fitting(const SimulationState& s, const Scene& scene) {
+  check_fits(s, scene);
+  return s;
+}
+
+void restore(std::optional<SemiImplicit>& stepper, const std::optional<SemiImplicit::Memory>& from,
+             const Grid& grid, Fourier& fourier) {
+  if (!from) return;
+  stepper.emplace(grid, fourier, 0);
+  check_fits(*from, stepper->memory());
+  stepper->remember(*from);
+}
+
+} // namespace
+
+Simulation::Simulation(const Scene& scene, const SimulationState& s)
+    : contact_(scene.contact), control_(control_of(scene)), fourier_(scene.grid()),
+      vesicle_(scene, fitting(s, scene).vesicle, s.measures.time, fourier_), gauge_(scene.grid()),
+      stepper_(scene.grid(), fourier_, responses_of(scene)), inside_(s.inside), outside_(s.outside),
+      why_not_on_(s.why_not_on), excess_(s.excess), error_(s.error), last_dt_(s.last_dt),
+      response_dt_(s.response_dt), steps_(s.steps), renormalised_(s.renormalised),
+      next_parting_(s.next_parting), next_search_(s.next_search), cells_(s.cells),
+      topology_(s.topology), domains_(s.domains), measures_(s.measures), events_(s.events) {
+  check_fits(s.stepper, stepper_.memory());
+  stepper_.remember(s.stepper);
+  restore(psi_stepper_, s.psi_stepper, scene.grid(), fourier_);
+  restore(c_stepper_, s.c_stepper, scene.grid(), fourier_);
+}
+
+SimulationState Simulation::state() const {
+  SimulationState s{.measures = measures_,
+                    .events = events_,
+                    .vesicle = vesicle_.state(),
+                    .stepper = stepper_.memory(),
+                    .excess = excess_,
+                    .error = error_,
+                    .last_dt = last_dt_,
+                    .response_dt = response_dt_,
+                    .steps = steps_,
+                    .renormalised = renormalised_,
+                    .next_parting = next_parting_,
+                    .next_search = next_search_,
+                    .cells = cells_,
+                    .topology = topology_,
+                    .domains = domains_,
+                    .inside = inside_,
+                    .outside = outside_,
+                    .why_not_on = why_not_on_};
+  if (psi_stepper_) s.psi_stepper = psi_stepper_->memory();
+  if (c_stepper_) s.c_stepper = c_stepper_->memory();
+  for (auto* places : {&s.inside, &s.outside})
+    for (CriticalPoint& place : *places) place.around.clear();
+  return s;
+}
+
+} // namespace lamella

@@ -1,0 +1,123 @@
+#include "runs.h"
+#include "scene/builtin.h"
+
+#include <bit>
+#include <cstring>
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+
+// A simulation that goes on from a stored state is the one that was not interrupted, to the last
+// bit.
+namespace lamella {
+namespace {
+
+/// All numbers of a row of the history, as bits.
+std::vector<std::uint64_t> bits(const Measures& m) {
+  std::vector<double> all{m.time,           m.dt,
+                          m.energy,         m.bending_energy,
+                          m.int_KM2,        m.P,
+                          m.sigma,          m.K_multiplier,
+                          m.area,           m.volume,
+                          m.reduced_volume, m.area_difference,
+                          m.area_drift,     m.volume_drift,
+                          m.max_speed,      double(m.components),
+                          double(m.genus)};
+  if (const auto& p = m.phases)
+    all.insert(all.end(), {p->line_energy, p->sigma_Ld, p->sigma_Lo, p->area_Ld, p->line_length,
+                           p->max_line_speed, double(p->domains_Ld), double(p->domains_Lo)});
+  if (const auto& s = m.stretch) all.insert(all.end(), {s->energy, s->least, s->greatest});
+  std::vector<std::uint64_t> result;
+  for (const double x : all) result.push_back(std::bit_cast<std::uint64_t>(x));
+  return result;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+/// Follows a scene, restarting copies where `interrupt` says so, which must go the same way for so
+/// many steps. Returns how many there were.
+int restarts_that_agree(const Scene& scene, int steps,
+                        const std::function<bool(const Simulation& now, int step)>& interrupt) {
+  Simulation sim(scene);
+  std::vector<std::pair<std::unique_ptr<Simulation>, int>> copies; // each with its last step
+  int made = 0;
+  for (int step = 1; step <= steps && sim.time() < scene.end_time; step++) {
+    sim.step(scene.end_time);
+    for (auto& [copy, last] : copies) {
+      copy->step(scene.end_time);
+      EXPECT_EQ(bits(copy->measures()), bits(sim.measures())) << "step " << step;
+      EXPECT_TRUE(std::ranges::equal(copy->events(), sim.events())) << "step " << step;
+    }
+    std::erase_if(copies, [&](const auto& copy) { return copy.second == step; });
+    if (!interrupt(sim, step)) continue;
+    made++;
+    copies.emplace_back(std::make_unique<Simulation>(scene, sim.state()), step + 8);
+    const Frame a = sim.frame(), b = copies.back().first->frame();
+    EXPECT_TRUE(same_bits(a.phi, b.phi) && same_bits(a.psi, b.psi) && same_bits(a.c, b.c))
+        << "step " << step;
+  }
+  return made;
+}
+
+auto at_steps(std::vector<int> steps) {
+  return [=](const Simulation&, int step) { return std::ranges::count(steps, step) > 0; };
+}
+
+/// After each event that changes the topology or moves the box, and two steps later.
+auto after_events() {
+  return [seen = std::size_t(0), soon = 0](const Simulation& sim, int) mutable {
+    const auto events = sim.events().subspan(seen);
+    seen = sim.events().size();
+    if (soon > 0) soon--;
+    const bool now = std::ranges::any_of(events, [](const Event& e) {
+      return e.changes_topology() || e.kind == Event::Kind::recentred;
+    });
+    if (now) soon = 3;
+    return now || soon == 1;
+  };
+}
+
+Scene builtin_on(const char* name, int nodes) {
+  Scene scene = builtin_scene(name);
+  scene.nodes = {nodes, nodes, nodes};
+  return scene;
+}
+
+TEST(Restart, IsExactWithOnePhase) {
+  const Scene scene = builtin_on("fig3_oblate", 32);
+  EXPECT_EQ(restarts_that_agree(scene, 50, at_steps({1, 2, 3, 7, 18, 33})), 6);
+}
+
+TEST(Restart, IsExactWithRampsAndAHeldAreaDifference) {
+  const Scene scene = builtin_on("fig8b", 32);
+  EXPECT_GT(restarts_that_agree(scene, 40, at_steps({1, 5, 14, 26})), 3);
+}
+
+TEST(Restart, IsExactWithTwoPhases) {
+  const Scene scene = builtin_on("fig9", 40);
+  EXPECT_EQ(restarts_that_agree(scene, 30, at_steps({1, 6, 19})), 3);
+}
+
+TEST(Restart, IsExactWithStretch) {
+  Scene scene = builtin_on("fig9", 32);
+  scene.stretch.modulus = 1000;
+  EXPECT_EQ(restarts_that_agree(scene, 24, at_steps({1, 4, 13})), 3);
+}
+
+TEST(Restart, IsExactRightAfterANeckParted) {
+  Scene scene = builtin_on("fig6b", 48);
+  scene.end_time = 6e-5;
+  EXPECT_GE(restarts_that_agree(scene, 400, after_events()), 2);
+}
+
+TEST(Restart, IsExactRightAfterTheBoxMoved) {
+  Scene scene = scene_of(ellipsoid({0.6, 0.4, 0.2}), 40, 3e-4);
+  scene.membrane.spontaneous_curvature = -15; // arms grow
+  scene.shape.center = {4 * 2. / 40, 0, 0};
+  EXPECT_GE(restarts_that_agree(scene, 60, after_events()), 2);
+}
+
+} // namespace
+} // namespace lamella
