@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace lamella {
 
 namespace {
@@ -39,7 +41,9 @@ up to there), 4 a file could not be written, 5 no pictures, 130 interrupted.)";
 
 constexpr const char* render_notes = R"(Examples:
   lamella render oblate                 figure.png and energy.png again
-  lamella render oblate --width 4200    larger, for a poster)";
+  lamella render oblate --width 4200    larger, for a poster
+  lamella render oblate --times 0,1e-4,4e-4,1.6e-3 --format pdf
+  lamella render oblate --color K_M --elevation 60)";
 
 constexpr const char* scenes_notes = R"(Examples:
   lamella scenes                              the list
@@ -107,14 +111,56 @@ void add_run(CLI::App& app, RunOptions& options) {
   add_backend(run, options.backend);
 }
 
+/// Numbers separated by commas.
+template <class Values>
+CLI::Option* add_list(CLI::App& command, const char* name, Values& values, const char* help) {
+  return command.add_option(name, values, help)->delimiter(',')->allow_extra_args(false);
+}
+
+/// How membranes are looked at.
+void add_view(CLI::App& command, render::View& view) {
+  command.add_option("--elevation", view.elevation, "Of the eye above the x-y plane, in degrees")
+      ->check(CLI::Range(-90., 90.).description(""))
+      ->type_name("DEGREES");
+  command.add_option("--azimuth", view.azimuth, "Of the eye around z, in degrees")
+      ->type_name("DEGREES");
+  std::vector<std::string> names;
+  for (const render::Quantity quantity : render::quantities)
+    names.emplace_back(render::to_string(quantity));
+  command
+      .add_option_function<std::string>(
+          "--color",
+          [&view](const std::string& name) {
+            view.color = *std::ranges::find(render::quantities, name, render::to_string);
+          },
+          "What colours tell: phase, K_M, K, energy_density, c or velocity")
+      ->check(CLI::IsMember(names).description(""))
+      ->type_name("NAME");
+}
+
 void add_render(CLI::App& app, RenderCommandOptions& options) {
-  CLI::App& render = *app.add_subcommand("render", "Draw the pictures of a stored run again");
-  render.footer(render_notes);
-  render.add_option("folder", options.folder, "Output folder of a run")->required()->type_name("");
-  render.add_option("--width", options.width, "Width of figure.png in pixels (default: 2100)")
+  CLI::App& command = *app.add_subcommand("render", "Draw the pictures of a stored run again");
+  command.footer(render_notes);
+  command.add_option("folder", options.folder, "Output folder of a run")->required()->type_name("");
+  command
+      .add_option("--width", options.pictures.width,
+                  "Width of figure.png in pixels (default: 2100)")
       ->check(CLI::Range(200, 10000).description(""))
       ->type_name("N");
-  add_backend(render, options.backend);
+  add_list(command, "--times", options.pictures.times,
+           "States to show, those nearest to these times (default: start and end)")
+      ->type_name("T[,T]");
+  add_view(command, options.pictures.view);
+  command.add_flag("--no-sections{false}", options.pictures.view.section, "Without cross-sections");
+  command.add_option("--format", options.pictures.format, "png, pdf or svg")
+      ->check(CLI::IsMember({"png", "pdf", "svg"}).description(""))
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_flag(
+      "--transparent",
+      [&](std::int64_t) { options.pictures.background = render::Background::transparent; },
+      "PNG without background");
+  add_backend(command, options.pictures.backend);
 }
 
 void add_scenes(CLI::App& app, std::string& name) {
@@ -170,7 +216,6 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
       ->type_name("N");
   add_threads(tradeoff, options.threads);
   tradeoff.add_flag("--force", options.force, "Replace an earlier sweep in the output folder");
-  add_backend(tradeoff, options.backend);
 }
 
 void add_extremes(CLI::App& app, ExtremesOptions& options) {
@@ -246,7 +291,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
     refuse(app, e);
   }
   if (app.got_subcommand("run")) return [=] { return run(run_options); };
-  if (app.got_subcommand("render")) return [=] { return render(render_options); };
+  if (app.got_subcommand("render")) return [=] { return redraw(render_options); };
   if (app.got_subcommand("tradeoff")) return [=] { return tradeoff(tradeoff_options); };
   if (app.got_subcommand("extremes")) return [=] { return extremes(extremes_options); };
   return [=] { return show_scenes(scene); };

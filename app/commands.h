@@ -1,4 +1,5 @@
 #pragma once
+#include "render/run_pictures.h"
 #include "tradeoff/sweep.h"
 
 #include <filesystem>
@@ -24,8 +25,7 @@ int run(const RunOptions& options);
 
 struct RenderCommandOptions {
   std::filesystem::path folder;
-  std::string backend = "auto";
-  int width = 0; ///< pixels; 0: the default of RenderOptions
+  render::PictureOptions pictures;
 };
 
 /// Draws the pictures of a stored run and returns their files. Throws UsageError for a folder that
@@ -33,7 +33,7 @@ struct RenderCommandOptions {
 std::vector<std::filesystem::path> draw_pictures(const RenderCommandOptions& options);
 
 /// The same as a command: lists the files. Returns an ExitCode.
-int render(const RenderCommandOptions& options);
+int redraw(const RenderCommandOptions& options);
 
 /// Lists the built-in scenes, or prints one. Returns an ExitCode; throws SceneError.
 int show_scenes(const std::string& name);
@@ -44,10 +44,9 @@ struct TradeoffOptions {
   std::filesystem::path reference; ///< empty: the built-in one, or else a finer run
   std::vector<std::string> set;    ///< section.key=value
   SweepRange range;
-  std::string backend = "auto"; ///< of the picture
-  int repeats = 1;              ///< runs of each kind; the fastest counts
-  int threads = 0;              ///< 0: all
-  bool force = false;           ///< replace an earlier sweep in the folder
+  int repeats = 1;    ///< runs of each kind; the fastest counts
+  int threads = 0;    ///< 0: all
+  bool force = false; ///< replace an earlier sweep in the folder
 };
 
 /// Runs a scene on several grids and with several tolerances, and fills the folder with a table and

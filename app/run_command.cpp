@@ -5,7 +5,6 @@
 #include "interrupt.h"
 #include "parallel.h"
 #include "progress.h"
-#include "render/render.h"
 #include "run_folder.h"
 #include "scene/preset.h"
 #include "start_frame.h"
@@ -51,7 +50,7 @@ Outcome carry_out(Simulation& sim, const Scene& scene, RunFolder& folder, Course
 
 int draw(const RunFolder& folder, const RunOptions& options) {
   try {
-    draw_pictures({folder.path(), options.backend});
+    draw_pictures({folder.path(), {.backend = options.backend}});
   } catch (const RenderError& e) {
     remark(fmt::format("no pictures: {}; all else is stored, `lamella render` draws it later",
                        e.what()));

@@ -153,15 +153,4 @@ std::optional<fs::path> end_of_run(const fs::path& folder) {
   });
 }
 
-StoredRun read_run(const fs::path& folder) {
-  return or_store_error(folder, "cannot be read", [&]() -> StoredRun {
-    if (!fs::is_directory(folder)) throw UsageError(folder.string() + ": no such folder");
-    if (!holds_run(folder)) throw UsageError(folder.string() + ": holds no run");
-    const std::vector<fs::path> files = stored_frames(folder);
-    if (files.empty()) throw UsageError(folder.string() + ": the run in it has no frames");
-    return {read_scene(folder / scene_file), read_history(folder / history_file),
-            read_events(folder / events_file), read_frame(files.front()), read_frame(files.back())};
-  });
-}
-
 } // namespace lamella

@@ -52,15 +52,4 @@ private:
 /// StoreError for one that cannot be read.
 std::optional<std::filesystem::path> end_of_run(const std::filesystem::path& folder);
 
-/// A stored run, with its first and last frame.
-struct StoredRun {
-  Scene scene;
-  std::vector<Measures> history;
-  std::vector<Event> events;
-  Frame start, end;
-};
-
-/// Throws UsageError for a folder that holds no run, StoreError for one that cannot be read.
-StoredRun read_run(const std::filesystem::path& folder);
-
 } // namespace lamella

@@ -6,7 +6,7 @@
 #include "interrupt.h"
 #include "parallel.h"
 #include "progress.h"
-#include "render/render.h"
+#include "render/run_pictures.h"
 #include "start_frame.h"
 #include "store/atomic_file.h"
 #include "sweep_progress.h"
@@ -86,16 +86,14 @@ void refuse_unsuitable(const fs::path& folder, bool force) {
         fmt::format("{}: cannot be used as output folder: {}", folder.string(), error.message()));
 }
 
-int draw(std::span<const Trial> trials, const fs::path& folder, const std::string& backend) {
+int draw(std::span<const Trial> trials, const fs::path& folder) {
   std::vector<Trade> trades;
   for (const Trial& trial : trials)
     trades.push_back({trial.scene.nodes, trial.seconds, trial.errors.largest(), trial.on_front,
                       std::string(trial.preset)});
   std::ranges::sort(trades, {}, &Trade::seconds);
-  RenderOptions render_options;
-  render_options.backend = backend;
   try {
-    render_tradeoff(trades, folder / plot_file, render_options);
+    render::draw_tradeoff(trades, folder / plot_file);
   } catch (const RenderError& e) {
     std::fprintf(stderr, "lamella: no picture: %s; all else is stored\n", e.what());
     return no_pictures;
@@ -141,7 +139,7 @@ int tradeoff(const TradeoffOptions& options) {
   if (trials.empty()) return interrupted;
   write_text_atomically(folder / page_file,
                         tradeoff_markdown(scene, *reference, trials, options.repeats));
-  const int pictures = draw(trials, folder, options.backend);
+  const int pictures = draw(trials, folder);
   say(fmt::format("In {}: {}, {}{}\n", folder.string(), table_file, page_file,
                   pictures == success ? fmt::format(", {}", plot_file) : ""));
   return interrupt_requested() ? interrupted : pictures;

@@ -2,8 +2,8 @@
 #
 # Components are named one by one: without, every VTK module's third-party packages would be searched for.
 set(lamella_vtk_components
-  CommonCore CommonDataModel CommonExecutionModel FiltersCore IOImage
-  RenderingCore RenderingOpenGL2 RenderingFreeType RenderingContext2D RenderingContextOpenGL2)
+  CommonCore CommonDataModel CommonExecutionModel FiltersCore
+  RenderingCore RenderingOpenGL2)
 if(LAMELLA_PYTHON)
   list(APPEND lamella_vtk_components Python WrappingPythonCore)
   set(Python3_FIND_STRATEGY LOCATION) # the system's, which VTK is built for, before others in PATH

@@ -1,11 +1,8 @@
 #include "render/cross_section.h"
 
-#include "fields/sampler.h"
-
 #include <vtkCellArray.h>
+#include <vtkContourFilter.h>
 #include <vtkDoubleArray.h>
-#include <vtkFlyingEdges2D.h>
-#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStripper.h>
@@ -17,76 +14,81 @@
 namespace lamella::render {
 namespace {
 
-/// The number of nodes inside (phi < 0) in every layer of constant y.
-std::vector<double> inside_by_layer(const Frame& frame) {
-  const Grid& grid = frame.grid;
-  std::vector<double> inside(grid.ny(), 0);
-  for (int k = 0; k < grid.nz(); ++k)
-    for (int j = 0; j < grid.ny(); ++j) {
-      const auto row = frame.phi.begin() + grid.index(0, j, k);
-      inside[j] += std::count_if(row, row + grid.nx(), [](double phi) { return phi < 0; });
-    }
-  return inside;
+/// A line of a cut, with psi at its points where there are phases.
+struct Cut {
+  std::vector<Vec2> points;
+  std::vector<double> psi;
+};
+
+/// Depths of the mesh's points toward the eye.
+vtkSmartPointer<vtkDoubleArray> depths(vtkPolyData& mesh, const Viewpoint& level) {
+  const Vec3 toward_eye = level.lift({0, 0, 1});
+  auto depth = vtkSmartPointer<vtkDoubleArray>::New();
+  depth->SetName("depth");
+  depth->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n) {
+    Vec3 p;
+    mesh.GetPoint(n, p.data());
+    depth->SetValue(n, p[0] * toward_eye[0] + p[1] * toward_eye[1] + p[2] * toward_eye[2]);
+  }
+  return depth;
 }
 
-/// Where to cut, in layers; not a whole number in general.
-double cutting_layer(const Frame& frame) {
-  const std::vector<double> inside = inside_by_layer(frame);
-  double sum = 0, moment = 0;
-  for (std::size_t j = 0; j < inside.size(); ++j) sum += inside[j], moment += inside[j] * j;
-  const double centroid = moment / sum;
-  if (inside[std::size_t(std::lround(centroid))] > 0) return centroid;
-  return double(std::max_element(inside.begin(), inside.end()) - inside.begin());
-}
-
-vtkSmartPointer<vtkImageData> slice(const Frame& frame, double layer) {
-  const Grid& grid = frame.grid;
-  const int j = std::clamp(int(std::floor(layer)), 0, grid.ny() - 2);
-  const double t = layer - j;
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(grid.nx(), grid.nz(), 1);
-  image->SetSpacing(grid.spacing, grid.spacing, 1);
-  image->SetOrigin(grid.origin(0), grid.origin(2), 0);
-  image->AllocateScalars(VTK_DOUBLE, 1);
-  auto* out = static_cast<double*>(image->GetScalarPointer());
-  for (int k = 0; k < grid.nz(); ++k)
-    for (int i = 0; i < grid.nx(); ++i)
-      *out++ = (1 - t) * frame.phi[grid.index(i, j, k)] + t * frame.phi[grid.index(i, j + 1, k)];
-  return image;
-}
-
-/// The lines phi = 0 in a layer, each closed.
-std::vector<std::vector<Vec2>> closed_lines(const Frame& frame, double layer) {
-  vtkNew<vtkFlyingEdges2D> edges;
-  edges->SetInputData(slice(frame, layer));
-  edges->SetValue(0, 0.0);
-  edges->ComputeScalarsOff();
+/// The chains of points at a depth, each closed.
+std::vector<Cut> cuts(const Surface& surface, const Viewpoint& level, vtkDoubleArray& depth,
+                      double at) {
+  vtkNew<vtkPolyData> mesh;
+  mesh->CopyStructure(surface.mesh);
+  mesh->GetPointData()->AddArray(surface.mesh->GetPointData()->GetArray("psi"));
+  mesh->GetPointData()->SetScalars(&depth);
+  vtkNew<vtkContourFilter> contour;
+  contour->SetInputData(mesh);
+  contour->SetValue(0, at);
   vtkNew<vtkStripper> chain;
-  chain->SetInputConnection(edges->GetOutputPort());
+  chain->SetInputConnection(contour->GetOutputPort());
   chain->JoinContiguousSegmentsOn();
   chain->SetMaximumLength(1 << 24);
   chain->Update();
 
-  std::vector<std::vector<Vec2>> lines;
+  std::vector<Cut> all;
   vtkPolyData* output = chain->GetOutput();
+  vtkDataArray* psi = output->GetPointData()->GetArray("psi");
   vtkCellArray* cells = output->GetLines();
   cells->InitTraversal();
   const vtkIdType* ids = nullptr;
   for (vtkIdType count = 0; cells->GetNextCell(count, ids);) {
     if (count > 1 && ids[0] == ids[count - 1]) --count; // closed: the first point is there twice
-    std::vector<Vec2> line;
+    Cut cut;
     for (vtkIdType n = 0; n < count; ++n) {
       Vec3 p;
       output->GetPoint(ids[n], p.data());
-      line.push_back({p[0], p[1]});
+      cut.points.push_back(level.project(p));
+      if (psi) cut.psi.push_back(psi->GetTuple1(ids[n]));
     }
-    lines.push_back(std::move(line));
+    all.push_back(std::move(cut));
   }
-  return lines;
+  return all;
+}
+
+/// Slightly off what may be a layer of the lattice, where a cut would meet whole edges.
+double off_lattice(double depth, double extent) { return depth + 1.7e-6 * extent; }
+
+double cutting_depth(vtkDoubleArray& depth) {
+  std::vector<double> all(depth.Begin(), depth.End());
+  std::ranges::sort(all);
+  const double extent = all.back() - all.front();
+  double mean = 0;
+  for (const double depth : all) mean += depth / double(all.size());
+  const auto above = std::ranges::lower_bound(all, mean);
+  const double gap = above == all.end() || above == all.begin() ? 0 : *above - *(above - 1);
+  if (gap < 0.05 * extent) return off_lattice(mean, extent);
+  const double nearest = all[all.size() / 4]; // the middle of what is on the far side
+  return off_lattice(nearest, extent);
 }
 
 /// A closed line cut where psi changes its sign from one point to the next.
-std::vector<Outline> cut(const std::vector<Vec2>& line, const std::vector<double>& psi) {
+std::vector<Outline> parted(const Cut& cut) {
+  const auto& [line, psi] = cut;
   const auto part = [&](std::size_t n) { return psi[n] < 0 ? Part::Ld : Part::Lo; };
   const auto next = [&](std::size_t n) { return (n + 1) % line.size(); };
   const auto boundary = [&](std::size_t n) { // between a point and the next
@@ -112,19 +114,15 @@ std::vector<Outline> cut(const std::vector<Vec2>& line, const std::vector<double
 
 } // namespace
 
-std::vector<Outline> cross_section(const Surface& surface) {
-  const Frame& fine = surface.fine;
-  const double layer = cutting_layer(fine), y = fine.grid.origin(1) + layer * fine.grid.spacing;
-  const Sampler psi(fine.grid, fine.psi);
+std::vector<Outline> cross_section(const Surface& surface, double azimuth) {
+  const Viewpoint level(0, azimuth);
+  const auto depth = depths(*surface.mesh, level);
   std::vector<Outline> outlines;
-  for (const std::vector<Vec2>& line : closed_lines(fine, layer)) {
-    if (!surface.has_phases()) {
-      outlines.push_back({Part::whole, line, true});
-      continue;
-    }
-    std::vector<double> values;
-    for (const auto& [x, z] : line) values.push_back(psi.value({x, y, z}));
-    std::ranges::move(cut(line, values), std::back_inserter(outlines));
+  for (const Cut& cut : cuts(surface, level, *depth, cutting_depth(*depth))) {
+    if (surface.has_phases())
+      std::ranges::move(parted(cut), std::back_inserter(outlines));
+    else
+      outlines.push_back({Part::whole, cut.points, true});
   }
   return outlines;
 }

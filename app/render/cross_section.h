@@ -4,7 +4,7 @@
 
 namespace lamella::render {
 
-/// A line of the membrane in a cross-section, as (x, z), all in one part of it. Lines that end, do
+/// A line of the membrane in a cross-section, all in one part of it. Lines that end, do
 /// so on the boundary of two phases, where another one begins.
 struct Outline {
   Part part;
@@ -12,9 +12,10 @@ struct Outline {
   bool closed;
 };
 
-/// The lines phi = 0 in the x-z plane through the centroid of the inside. Where that plane misses
-/// the membrane, in the plane that cuts the largest area out of the inside.
-std::vector<Outline> cross_section(const Surface& surface);
+/// The lines in which the plane through the centroid of the membrane, upright and across the line
+/// of sight from `azimuth` (degrees, see Viewpoint), cuts it: at 0 the x-z plane. Points are
+/// (right, up). Where that plane misses the membrane, the plane beside it that cuts the most of it.
+std::vector<Outline> cross_section(const Surface& surface, double azimuth = 0);
 
 Extent extent_of(const std::vector<Outline>& lines);
 

@@ -24,8 +24,8 @@ struct Ticks {
 /// Three to eight round positions within [low, high], low < high.
 Ticks linear_ticks(double low, double high);
 
-/// 1, 2 ... 9 times the powers of ten within [10^low, 10^high]. Powers are labelled as far as labels
-/// stay apart, 2 and 5 times them too where there are hardly more than two.
+/// 1, 2 ... 9 times the powers of ten within [10^low, 10^high]. Powers are labelled as far as
+/// labels stay apart, 2 and 5 times them too where there are hardly more than two.
 Ticks log_ticks(double low, double high);
 
 } // namespace lamella::render

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace lamella::render {
@@ -57,9 +58,12 @@ Color shaded(const Color& color, double light) {
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
 
+/// The colour of a point in full light.
+using Paint = std::function<Color(vtkIdType)>;
+
 /// The membrane's colour at every point: darker where little ambient light comes in, and toward the
 /// rim, which sets the shape off against the white paper.
-vtkSmartPointer<vtkUnsignedCharArray> tone(vtkPolyData& mesh, const Color& color,
+vtkSmartPointer<vtkUnsignedCharArray> tone(vtkPolyData& mesh, const Paint& paint,
                                            const Vec3& toward_eye) {
   const auto cosine = facing(mesh, toward_eye);
   auto* occlusion = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetArray("occlusion"));
@@ -68,21 +72,22 @@ vtkSmartPointer<vtkUnsignedCharArray> tone(vtkPolyData& mesh, const Color& color
   colors->SetNumberOfTuples(mesh.GetNumberOfPoints());
   unsigned char* out = colors->GetPointer(0);
   for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n, out += 3) {
-    const double rim = std::pow(1 - std::clamp(double(cosine->GetValue(n)), 0.0, 1.0), 3);
+    const double away = 1 - std::clamp(double(cosine->GetValue(n)), 0.0, 1.0);
     const double open = 1 - 0.5 * occlusion->GetValue(n);
-    const double light = open * (1 - 0.18 * rim);
-    const Color seen = shaded(color, light);
+    const double light = open * (1 - 0.18 * away * away * away);
+    const Color seen = shaded(paint(n), light);
     out[0] = seen.r, out[1] = seen.g, out[2] = seen.b;
   }
   return colors;
 }
 
-vtkSmartPointer<vtkActor> membrane_actor(const Patch& patch, const Vec3& toward_eye) {
-  vtkNew<vtkPolyData> mesh;
-  mesh->ShallowCopy(patch.mesh);
-  mesh->GetPointData()->SetScalars(tone(*mesh, hue(patch.part).surface, toward_eye));
+vtkSmartPointer<vtkActor> membrane_actor(vtkPolyData& mesh, const Paint& paint,
+                                         const Vec3& toward_eye) {
+  vtkNew<vtkPolyData> toned;
+  toned->ShallowCopy(&mesh);
+  toned->GetPointData()->SetScalars(tone(*toned, paint, toward_eye));
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(mesh);
+  mapper->SetInputData(toned);
   mapper->SetColorModeToDirectScalars();
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
@@ -93,6 +98,22 @@ vtkSmartPointer<vtkActor> membrane_actor(const Patch& patch, const Vec3& toward_
   matte->SetSpecular(0.07);
   matte->SetSpecularPower(9);
   return actor;
+}
+
+void add_membrane(vtkRenderer& renderer, const Surface& surface, const Coloring& coloring,
+                  const Vec3& toward_eye) {
+  if (coloring.quantity == Quantity::phase) {
+    for (const Patch& patch : patches(*surface.mesh)) {
+      const Color color = hue(patch.part).surface;
+      const Paint paint = [=](vtkIdType) { return color; };
+      renderer.AddActor(membrane_actor(*patch.mesh, paint, toward_eye));
+    }
+    return;
+  }
+  const std::string name(to_string(coloring.quantity));
+  vtkDataArray* values = surface.mesh->GetPointData()->GetArray(name.c_str());
+  const Paint paint = [&](vtkIdType n) { return coloring.palette->at(values->GetTuple1(n)); };
+  renderer.AddActor(membrane_actor(*surface.mesh, paint, toward_eye));
 }
 
 /// Radius of the thread along a boundary: constant, but less toward the horizon, over which the
@@ -107,11 +128,12 @@ vtkSmartPointer<vtkFloatArray> radius(vtkPolyData& boundary, const Vec3& toward_
 
 /// A thread in the membrane rather than a line on it: nothing lies in the very same place, and seen
 /// from the side it stays more than half as wide.
-vtkSmartPointer<vtkActor> boundary_actor(vtkPolyData& boundary, const Vec3& toward_eye,
-                                         double width) {
-  boundary.GetPointData()->SetScalars(radius(boundary, toward_eye, width));
+vtkSmartPointer<vtkActor> boundary_actor(vtkPolyData& lines, const Vec3& toward_eye, double width) {
+  vtkNew<vtkPolyData> boundary;
+  boundary->ShallowCopy(&lines);
+  boundary->GetPointData()->SetScalars(radius(*boundary, toward_eye, width));
   vtkNew<vtkClipPolyData> front;
-  front->SetInputData(&boundary);
+  front->SetInputData(boundary);
   front->SetValue(width / 100); // thinner, it cannot be seen
   vtkNew<vtkStripper> chain;
   chain->SetInputConnection(front->GetOutputPort());
@@ -143,25 +165,29 @@ void Extent::include(const Extent& other) {
   include(other.high);
 }
 
-Viewpoint::Viewpoint(double elevation) {
-  const double angle = elevation * std::numbers::pi / 180;
-  up_ = {0, std::sin(angle), std::cos(angle)};
-  toward_eye_ = {0, -std::cos(angle), std::sin(angle)};
+Viewpoint::Viewpoint(double elevation, double azimuth) {
+  constexpr double degree = std::numbers::pi / 180;
+  const double c = std::cos(azimuth * degree), s = std::sin(azimuth * degree);
+  const double level = std::cos(elevation * degree), rise = std::sin(elevation * degree);
+  right_ = {c, s, 0};
+  up_ = {-s * rise, c * rise, level};
+  toward_eye_ = {s * level, -c * level, rise};
 }
 
-Viewpoint Viewpoint::suited_to(const std::vector<const Surface*>& surfaces) {
+double suitable_elevation(const std::vector<Surface>& surfaces) {
   constexpr double oblique = 30, nearly_level = 12;
   vtkBoundingBox box;
-  for (const Surface* surface : surfaces) box.AddBounds(surface->mesh->GetBounds());
+  for (const Surface& surface : surfaces) box.AddBounds(surface.mesh->GetBounds());
   const bool tall = box.GetLength(2) > 1.2 * std::max(box.GetLength(0), box.GetLength(1));
-  return Viewpoint(tall ? nearly_level : oblique);
+  return tall ? nearly_level : oblique;
 }
 
-Vec2 Viewpoint::project(const Vec3& p) const { return {p[0], dot(p, up_)}; }
+Vec2 Viewpoint::project(const Vec3& p) const { return {dot(p, right_), dot(p, up_)}; }
 
 Vec3 Viewpoint::lift(const Vec3& view) const {
-  Vec3 p{view[0], 0, 0};
-  for (int a = 0; a < 3; ++a) p[a] += view[1] * up_[a] + view[2] * toward_eye_[a];
+  Vec3 p{};
+  for (int a = 0; a < 3; ++a)
+    p[a] = view[0] * right_[a] + view[1] * up_[a] + view[2] * toward_eye_[a];
   return p;
 }
 
@@ -176,18 +202,17 @@ Extent view_extent(const Surface& surface, const Viewpoint& viewpoint) {
 }
 
 vtkSmartPointer<vtkRenderer> membrane_view(const Surface& surface, const Viewpoint& viewpoint,
-                                           const Vec2& center, double height, double line_width) {
+                                           const Vec2& center, double height, double line_width,
+                                           const Coloring& coloring) {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
-  renderer->SetBackground(1, 1, 1);
   renderer->AutomaticLightCreationOff();
   add_light(*renderer, viewpoint, {-0.45, 0.80, 0.65}, 0.68); // key, from the upper left
   add_light(*renderer, viewpoint, {0.75, 0.10, 0.65}, 0.30);  // fill, from the right
   add_light(*renderer, viewpoint, {0.05, -0.70, 0.40}, 0.22); // as paper would reflect, from below
   const Vec3 toward_eye = viewpoint.lift({0, 0, 1});
-  for (const Patch& patch : patches(*surface.mesh))
-    renderer->AddActor(membrane_actor(patch, toward_eye));
-  if (const auto boundary = phase_boundary(*surface.mesh); boundary->GetNumberOfLines() > 0)
-    renderer->AddActor(boundary_actor(*boundary, toward_eye, line_width));
+  add_membrane(*renderer, surface, coloring, toward_eye);
+  if (surface.boundary && surface.boundary->GetNumberOfLines() > 0)
+    renderer->AddActor(boundary_actor(*surface.boundary, toward_eye, line_width));
 
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->ParallelProjectionOn();

@@ -1,7 +1,6 @@
 #include "render/phases.h"
 
 #include <vtkClipPolyData.h>
-#include <vtkContourFilter.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
@@ -22,16 +21,6 @@ std::vector<Patch> patches(vtkPolyData& mesh) {
   std::vector<Patch> both{{Part::Ld, clip->GetClippedOutput()}, {Part::Lo, clip->GetOutput()}};
   std::erase_if(both, [](const Patch& patch) { return patch.mesh->GetNumberOfPolys() == 0; });
   return both;
-}
-
-vtkSmartPointer<vtkPolyData> phase_boundary(vtkPolyData& mesh) {
-  if (!has_phases(mesh)) return vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkContourFilter> contour;
-  contour->SetInputData(&mesh);
-  contour->SetValue(0, 0.0);
-  contour->ComputeNormalsOff(); // those of the mesh
-  contour->Update();
-  return contour->GetOutput();
 }
 
 } // namespace lamella::render

@@ -24,8 +24,4 @@ struct Patch {
 /// The patches that make up a mesh, cut exactly along psi = 0 where its active scalars are psi.
 std::vector<Patch> patches(vtkPolyData& mesh);
 
-/// The lines psi = 0 on a mesh whose active scalars are psi, with its other point data; none on
-/// another mesh.
-vtkSmartPointer<vtkPolyData> phase_boundary(vtkPolyData& mesh);
-
 } // namespace lamella::render

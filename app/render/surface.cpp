@@ -2,14 +2,19 @@
 
 #include "fields/image.h"
 #include "fields/refine.h"
+#include "fields/state_data.h"
 #include "render/labels.h"
 #include "render/occlusion.h"
 #include "render/render.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkMembraneSurface.h>
 #include <vtkNew.h>
+#include <vtkPhaseBoundary.h>
 #include <vtkPointData.h>
 
 #include <algorithm>
@@ -23,15 +28,22 @@ namespace {
 constexpr int fine_cells = 90;
 constexpr int largest_refinement = 4;
 
-vtkSmartPointer<vtkPolyData> membrane(const Frame& fine) {
-  vtkNew<vtkImageData> image;
-  fill_image(*image, fine);
-  vtkNew<vtkMembraneSurface> surface;
-  surface->SetInputData(image);
-  surface->SetRefinement(1); // it is refined
-  surface->ComputeCurvaturesOff();
-  surface->Update();
-  return surface->GetOutput();
+/// A filter's output. Its errors are thrown as RenderError; what it warns of does not matter to a
+/// picture.
+vtkSmartPointer<vtkPolyData> output_of(vtkPolyDataAlgorithm& filter, vtkImageData& image) {
+  std::string error;
+  vtkNew<vtkCallbackCommand> listener;
+  listener->SetClientData(&error);
+  listener->SetCallback([](vtkObject*, unsigned long event, void* text, void* message) {
+    if (event == vtkCommand::ErrorEvent)
+      *static_cast<std::string*>(text) = static_cast<const char*>(message);
+  });
+  filter.AddObserver(vtkCommand::ErrorEvent, listener);
+  filter.AddObserver(vtkCommand::WarningEvent, listener);
+  filter.SetInputData(&image);
+  filter.Update();
+  if (!error.empty()) throw RenderError(error);
+  return filter.GetOutput();
 }
 
 /// The half-diagonal of the inside's bounding box.
@@ -46,7 +58,8 @@ double half_size(const Frame& frame) {
   return 0.5 * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-void add_occlusion(vtkPolyData& mesh, const Occlusion& occlusion) {
+void add_occlusion(vtkPolyData& mesh, const Frame& frame, double radius) {
+  const Occlusion occlusion(crop(frame, 2 * radius + 4 * frame.grid.spacing), radius);
   vtkDataArray* normals = mesh.GetPointData()->GetNormals();
   vtkNew<vtkFloatArray> shade;
   shade->SetName("occlusion");
@@ -60,19 +73,62 @@ void add_occlusion(vtkPolyData& mesh, const Occlusion& occlusion) {
   mesh.GetPointData()->AddArray(shade);
 }
 
-} // namespace
-
-Surface extract_surface(const Frame& frame) {
-  const double size = half_size(frame), shadow = 0.12 * size;
+Surface extract(vtkImageData& image, const Frame& frame, bool with_curvatures) {
+  const double size = half_size(frame);
   if (size == 0)
     throw RenderError("nothing to draw: the level set at t = " + plain(number(frame.time)) +
                       " has no membrane");
   const double wanted = fine_cells * frame.grid.spacing / size;
-  const int factor = std::clamp(int(std::ceil(wanted)), 1, largest_refinement);
-  const Frame around = crop(frame, 2 * shadow + 4 * frame.grid.spacing);
-  Surface surface{refine(around, factor), nullptr};
-  surface.mesh = membrane(surface.fine);
-  add_occlusion(*surface.mesh, Occlusion(around, shadow));
+  vtkNew<vtkMembraneSurface> membrane;
+  membrane->SetRefinement(std::clamp(int(std::ceil(wanted)), 1, largest_refinement));
+  membrane->SetComputeCurvatures(with_curvatures);
+  Surface surface{frame.time, output_of(*membrane, image), nullptr};
+  add_occlusion(*surface.mesh, frame, 0.12 * size);
+  if (!frame.psi.empty()) surface.boundary = output_of(*vtkNew<vtkPhaseBoundary>(), image);
+  return surface;
+}
+
+/// The velocity's component along the normal, in place of the vector.
+void project_velocity(vtkPolyData& mesh) {
+  vtkDataArray* vectors = mesh.GetPointData()->GetArray("velocity");
+  vtkDataArray* normals = mesh.GetPointData()->GetNormals();
+  vtkNew<vtkDoubleArray> speed;
+  speed->SetName("velocity");
+  speed->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n) {
+    const double* v = vectors->GetTuple3(n);
+    const Vec3 velocity{v[0], v[1], v[2]};
+    const double* normal = normals->GetTuple3(n);
+    speed->SetValue(n, velocity[0] * normal[0] + velocity[1] * normal[1] + velocity[2] * normal[2]);
+  }
+  mesh.GetPointData()->AddArray(speed);
+}
+
+} // namespace
+
+std::string_view to_string(Quantity quantity) {
+  constexpr std::string_view names[]{"phase", "K_M", "K", "energy_density", "c", "velocity"};
+  return names[std::size_t(quantity)];
+}
+
+Surface extract_surface(const Frame& frame) {
+  vtkNew<vtkImageData> image;
+  fill_image(*image, frame);
+  return extract(*image, frame, false);
+}
+
+Surface extract_surface(const State& state, Quantity quantity) {
+  if (quantity == Quantity::phase) return extract_surface(state.frame);
+  vtkNew<vtkImageData> image;
+  fill_state(*image, state.frame, state.measures, state.scene);
+  Surface surface = extract(*image, state.frame, quantity != Quantity::c);
+  const std::string name(to_string(quantity));
+  if (!surface.mesh->GetPointData()->HasArray(name.c_str()))
+    throw RenderError(
+        quantity == Quantity::c
+            ? "colours of c need a scene with local stretch, [stretch] modulus above 0"
+            : "colours of " + name + " need a scene with one phase");
+  if (quantity == Quantity::velocity) project_velocity(*surface.mesh);
   return surface;
 }
 

@@ -1,8 +1,7 @@
-#include "render/render.h"
+#include "render/run_pictures.h"
 
 #include "render/cross_section.h"
 #include "render/energy_plot.h"
-#include "render/figure.h"
 #include "render/labels.h"
 #include "render/membrane_view.h"
 #include "render/occlusion.h"
@@ -11,6 +10,7 @@
 #include "render/style.h"
 #include "render/surface.h"
 #include "render/tradeoff_plot.h"
+#include "scene/scene_toml.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <unistd.h>
 
@@ -107,12 +108,39 @@ protected:
   fs::path folder_;
 };
 
-/// A picture of 400 x 400 pixels, 200 to the length of the box.
+/// A picture of 400 x 400 pixels on white, 200 to the length of the box.
 Picture view_of(const Surface& surface, const std::string& backend, double elevation = 30) {
   Studio studio(backend);
-  const Viewpoint viewpoint(elevation);
-  return studio.shoot(
-      400, 400, {{membrane_view(surface, viewpoint, {0, 0}, 2, 0.02), 0, 0, 400, 400}}, Sheet(), 1);
+  const auto view = membrane_view(surface, Viewpoint(elevation), {0, 0}, 2, 0.02);
+  Sheet sheet(400, 400);
+  sheet.picture({0, 0, 400, 400}, studio.shoot(*view, 400, 400));
+  return print(sheet, 400);
+}
+
+/// The two states side by side with their sections, 1050 pixels wide.
+Picture figure_of(const Surface& start, const Surface& end) {
+  Studio studio("auto");
+  Page page(2100);
+  page.add(std::make_unique<Strip>(Heading{}, std::vector{start, end}, View{.section = true}));
+  return print(page.draw({studio, 0.5}), 1050);
+}
+
+/// 700 pixels wide.
+Picture picture_of(const Plot& plot) { return print(sheet_of(plot), 700); }
+
+/// A folder as a run leaves it.
+void store_run(const fs::path& folder, const std::vector<Frame>& frames,
+               const std::vector<Measures>& history) {
+  fs::create_directories(folder / "frames");
+  std::ofstream(folder / "scene.toml") << to_toml(Scene{});
+  HistoryWriter writer(folder / "history.csv");
+  for (const Measures& row : history) writer.add(row);
+  std::vector<SeriesEntry> series;
+  for (const Frame& frame : frames) {
+    series.push_back({"frame_000" + std::to_string(series.size()) + ".hdf", frame.time});
+    write_frame(folder / "frames" / series.back().file, frame);
+  }
+  write_series(folder / "frames" / "frames.hdf.series", series);
 }
 
 class Backend : public Render, public testing::WithParamInterface<const char*> {};
@@ -265,9 +293,7 @@ TEST_F(Render, shades_hollows_and_not_what_bulges_out) {
 }
 
 TEST_F(Render, draws_the_sections_below_the_views) {
-  Studio studio("auto");
-  const Picture figure =
-      draw_figure(studio, extract_surface(sphere(0.5)), extract_surface(sphere(0.4)), 1050);
+  const Picture figure = figure_of(extract_surface(sphere(0.5)), extract_surface(sphere(0.4)));
   EXPECT_EQ(figure.width, 1050);
   int above = 0, below = 0; // pixels of the sections' line
   for (int y = 0; y < figure.height; ++y)
@@ -278,10 +304,9 @@ TEST_F(Render, draws_the_sections_below_the_views) {
 }
 
 TEST_F(Render, names_the_colours_of_phases_where_there_are_some) {
-  Studio studio("auto");
   const Surface one = extract_surface(sphere(0.5)), two = extract_surface(capped_sphere(0.5, 0.9));
   const auto legend = [&](const Surface& start, const Surface& end) { // Ld left of Lo, at the foot
-    const Picture figure = draw_figure(studio, start, end, 1050);
+    const Picture figure = figure_of(start, end);
     int Ld = 0, Lo = 0;
     for (int y = figure.height - 60; y < figure.height; ++y)
       for (int x = 0; x < figure.width; ++x) {
@@ -295,18 +320,16 @@ TEST_F(Render, names_the_colours_of_phases_where_there_are_some) {
 }
 
 TEST_F(Render, draws_sections_in_the_colours_of_phases) {
-  Studio studio("auto");
   const double angle = 0.9, part = angle / std::numbers::pi; // of the outline in Ld
   const Surface surface = extract_surface(capped_sphere(0.5, angle));
-  const Picture figure = draw_figure(studio, surface, surface, 1050);
+  const Picture figure = figure_of(surface, surface);
   const double Ld = count_pixels(figure, style::Ld.line), Lo = count_pixels(figure, style::Lo.line);
   EXPECT_NEAR(Ld / (Ld + Lo), part, 0.02);
   EXPECT_GT(Ld + Lo, 4000);
 }
 
 TEST_F(Render, plots_the_energy_from_end_to_end) {
-  Studio studio("auto");
-  const Picture plot = draw_energy(studio, falling_energy(200, 1.6e-3), 1, 700);
+  const Picture plot = picture_of(energy_plot(falling_energy(200, 1.6e-3), 1));
   EXPECT_EQ(plot.height, 525);
   std::vector<int> columns; // that the curve runs through
   for (int x = 0; x < plot.width; ++x)
@@ -322,9 +345,8 @@ TEST_F(Render, plots_the_energy_from_end_to_end) {
 }
 
 TEST_F(Render, plots_the_terms_of_the_energy_that_are_there) {
-  Studio studio("auto");
   const auto shows = [&](const std::vector<Measures>& history) {
-    const Picture plot = draw_energy(studio, history, 1, 700);
+    const Picture plot = picture_of(energy_plot(history, 1));
     std::vector<bool> there;
     for (const Color& color : {style::membrane.line, style::Lo.line, style::line_energy,
                                style::gaussian_energy, style::stretch_energy})
@@ -343,13 +365,12 @@ TEST_F(Render, plots_the_terms_of_the_energy_that_are_there) {
 }
 
 TEST_F(Render, plots_one_row_and_steady_energies_but_not_nothing) {
-  Studio studio("auto");
   std::vector<Measures> steady = falling_energy(20, 1);
   for (Measures& row : steady) row.energy = 8 * std::numbers::pi;
-  EXPECT_NO_THROW(draw_energy(studio, steady, 1, 700));
-  EXPECT_NO_THROW(draw_energy(studio, falling_energy(20, 1.0), 1e-20, 700));
-  EXPECT_NO_THROW(draw_energy(studio, {Measures{}}, 1, 700));
-  EXPECT_THAT(error_of([&] { draw_energy(studio, {}, 1, 700); }), HasSubstr("nothing to plot"));
+  EXPECT_NO_THROW(picture_of(energy_plot(steady, 1)));
+  EXPECT_NO_THROW(picture_of(energy_plot(falling_energy(20, 1.0), 1e-20)));
+  EXPECT_NO_THROW(picture_of(energy_plot({Measures{}}, 1)));
+  EXPECT_THAT(error_of([&] { energy_plot({}, 1); }), HasSubstr("nothing to plot"));
 }
 
 TEST_F(Render, plots_error_against_time) {
@@ -357,41 +378,86 @@ TEST_F(Render, plots_error_against_time) {
                                   {{64, 64, 64}, 1.5, 1e-3, true, "standard"},
                                   {{64, 64, 64}, 3, 2e-3, false, ""},
                                   {{64, 64, 64}, 4, std::nan(""), false, ""}};
-  Studio studio("auto");
-  const Picture plot = draw_tradeoff(studio, trades, 700);
+  const Picture plot = picture_of(tradeoff_plot(trades));
   EXPECT_EQ(plot.height, 525);
   const auto count = [&](Color color) { return count_pixels(plot, color); };
   EXPECT_GT(count({244, 166, 120}), 100) << "the coarse grid's dot and label";
   EXPECT_GT(count({96, 20, 44}), 200) << "the fine grid's dots, line and label";
-  EXPECT_THAT(error_of([&] { draw_tradeoff(studio, std::span(trades).last(1), 700); }),
+  EXPECT_THAT(error_of([&] { tradeoff_plot(std::span(trades).last(1)); }),
               HasSubstr("nothing to plot"));
 }
 
 TEST_F(Render, writes_all_pictures_of_a_run) {
-  RenderOptions options;
+  store_run(folder_, {sphere(0.5), sphere(0.4, {}, 1e-3)}, falling_energy(50, 1e-3));
+  const std::map<std::string, std::string> signatures{
+      {"png", "\x89PNG"}, {"pdf", "%PDF"}, {"svg", "<?xml"}};
+  PictureOptions options;
   options.width = 600;
-  const auto files =
-      render_run(sphere(0.5), sphere(0.4, {}, 1e-3), falling_energy(50, 1e-3), folder_, options);
-  EXPECT_THAT(files, ElementsAre(folder_ / "figure.png", folder_ / "energy.png"));
-  for (const fs::path& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    std::string signature(8, ' ');
-    in.read(signature.data(), 8);
-    EXPECT_EQ(signature, "\x89PNG\r\n\x1a\n") << file;
+  for (const auto& [format, signature] : signatures) {
+    options.format = format;
+    const auto files = draw_run(StoredStates(folder_), folder_, options);
+    EXPECT_THAT(files, ElementsAre(folder_ / ("figure." + format), folder_ / ("energy." + format)));
+    for (const fs::path& file : files) {
+      std::ifstream in(file, std::ios::binary);
+      std::string begin(signature.size(), ' ');
+      in.read(begin.data(), std::streamsize(begin.size()));
+      EXPECT_EQ(begin, signature) << file;
+    }
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "nothing else is left behind";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 9) << "nothing else is left behind";
 }
 
 TEST_F(Render, says_that_a_folder_cannot_be_written_to) {
-  const Frame frame = sphere(0.5);
-  RenderOptions small;
+  store_run(folder_, {sphere(0.5)}, falling_energy(5, 1));
+  PictureOptions small;
   small.width = 600;
   const auto into = [&](const fs::path& where) {
-    return error_of([&] { render_run(frame, frame, falling_energy(5, 1), where, small); });
+    return error_of([&] { draw_run(StoredStates(folder_), where, small); });
   };
   EXPECT_THAT(into(folder_ / "missing"),
               AllOf(HasSubstr("figure.png"), HasSubstr("No such file or directory")));
   EXPECT_THAT(into("/dev/null"), HasSubstr("Not a directory"));
+}
+
+TEST_F(Render, leaves_the_background_out_where_asked) {
+  Sheet sheet(100, 100);
+  sheet.disc({50, 50}, 20, style::ink);
+  EXPECT_EQ(print(sheet, 100).at(2, 2), (Color{255, 255, 255, 255}));
+  EXPECT_EQ(print(sheet, 100, Background::transparent).at(2, 2).a, 0);
+  EXPECT_EQ(print(sheet, 100, Background::transparent).at(50, 50), style::ink);
+}
+
+TEST_F(Render, keeps_letters_and_lines_in_vectors) {
+  const Sheet sheet = sheet_of(energy_plot(falling_energy(50, 1e-3), 1));
+  write_sheet(folder_ / "plot.svg", sheet);
+  std::ifstream in(folder_ / "plot.svg");
+  const std::string svg{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_THAT(svg, AllOf(HasSubstr(">time <"), HasSubstr(">ζ<"), HasSubstr("<polyline")));
+  EXPECT_THAT(svg, testing::Not(HasSubstr("<image")));
+}
+
+TEST_F(Render, turns_the_eye_around) {
+  const Frame frame = frame_of([](const Vec3& p) {
+    return std::hypot(p[0] / 2, p[1], p[2]) - 0.3; // long along x
+  });
+  const Surface surface = extract_surface(frame);
+  EXPECT_NEAR(view_extent(surface, Viewpoint(0, 0)).width(), 1.2, 0.01);
+  EXPECT_NEAR(view_extent(surface, Viewpoint(0, 90)).width(), 0.6, 0.01);
+  EXPECT_NEAR(extent_of(cross_section(surface, 0)).width(), 1.2, 0.01);
+  EXPECT_NEAR(extent_of(cross_section(surface, 90)).width(), 0.6, 0.01);
+}
+
+TEST_F(Render, colours_a_sphere_by_its_curvature) {
+  const State state{sphere(0.5)};
+  const Surface surface = extract_surface(state, Quantity::K_M);
+  const ValueRange range = range_of(Quantity::K_M, {surface});
+  EXPECT_NEAR(range.low, -4, 0.02);
+  EXPECT_NEAR(range.high, 4, 0.02);
+  const Palette palette(Quantity::K_M, range);
+  EXPECT_TRUE(is_blue(palette.at(-4)));
+  EXPECT_TRUE(is_red(palette.at(4)));
+  EXPECT_THAT(error_of([&] { extract_surface(state, Quantity::c); }),
+              HasSubstr("[stretch] modulus"));
 }
 
 TEST(Labels, numbers_read_as_in_print) {
