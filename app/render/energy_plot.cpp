@@ -22,9 +22,14 @@ std::vector<Term> terms(const Measures& m) {
            {"bending Lo", style::Lo.line, m.phases->bending_energy_Lo},
            {"line", style::line_energy, m.phases->line_energy},
            {"Gaussian", style::gaussian_energy, m.phases->gaussian_energy}};
-  else if (m.stretch)
+  else if (m.stretch || m.pressure_energy || m.area_difference_energy || m.film_energy)
     all = {{"bending", style::membrane.line, m.bending_energy}};
   if (m.stretch) all.push_back({"stretch", style::stretch_energy, m.stretch->energy});
+  if (m.pressure_energy) all.push_back({"pressure", style::pressure_energy, *m.pressure_energy});
+  if (m.area_difference_energy)
+    all.push_back(
+        {"area difference", style::area_difference_energy, *m.area_difference_energy});
+  if (m.film_energy) all.push_back({"films", style::film_energy, *m.film_energy});
   return all;
 }
 

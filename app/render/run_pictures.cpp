@@ -22,6 +22,8 @@ StoredStates::StoredStates(const std::filesystem::path& folder) {
   scene_ = read_scene(files.scene);
   history_ = read_history(files.history);
   frames_ = files.frames;
+  if (folder.is_relative()) // as the user calls them, in messages
+    for (SeriesEntry& frame : frames_) frame.file = std::filesystem::proximate(frame.file);
 }
 
 State StoredStates::at(double time) const {
