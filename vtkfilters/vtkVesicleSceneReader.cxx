@@ -72,6 +72,20 @@ int vtkVesicleSceneReader::FillOutputPortInformation(int port, vtkInformation* i
   return 1;
 }
 
+lamella::Scene vtkVesicleSceneReader::Open() const
+{
+  if (!this->SceneText.empty())
+  {
+    return lamella::scene_of_text(this->SceneText, this->Overrides);
+  }
+  if (this->FileName.empty())
+  {
+    throw lamella::InputError("no FileName; a scene file (.toml) is needed, or the name of a "
+                              "built-in scene");
+  }
+  return lamella::open_scene(this->FileName, this->Overrides);
+}
+
 /** What is wrong with the scene is said with the data. */
 int vtkVesicleSceneReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
@@ -80,7 +94,7 @@ int vtkVesicleSceneReader::RequestInformation(
   lamella::withdraw_times(*output);
   try
   {
-    const lamella::Scene scene = lamella::open_scene(this->FileName, this->Overrides);
+    const lamella::Scene scene = this->Open();
     lamella::offer_grid(*output->GetInformationObject(0), scene.grid());
     lamella::offer_times(*output, lamella::stored_times(scene));
   }
@@ -96,12 +110,7 @@ int vtkVesicleSceneReader::RequestData(
   return lamella::reporting(this,
     [&]
     {
-      if (this->FileName.empty())
-      {
-        throw lamella::InputError("no FileName; a scene file (.toml) is needed, or the name of a "
-                                  "built-in scene");
-      }
-      const lamella::Scene scene = lamella::open_scene(this->FileName, this->Overrides);
+      const lamella::Scene scene = this->Open();
       if (!this->Current || this->Current->Parameters != lamella::to_toml(scene))
       {
         this->Current.reset();
@@ -116,6 +125,7 @@ void vtkVesicleSceneReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "SceneText: " << this->SceneText << "\n";
   for (const std::string& setting : this->Overrides)
   {
     os << indent << "Override: " << setting << "\n";

@@ -24,6 +24,11 @@
 #include <string>
 #include <vector>
 
+namespace lamella
+{
+struct Scene;
+}
+
 class VTKLAMELLAFILTERS_EXPORT vtkVesicleSceneReader : public vtkImageAlgorithm
 {
 public:
@@ -35,6 +40,13 @@ public:
   /** A scene file, or the name of a built-in scene (`lamella scenes` lists them). */
   vtkSetStdStringFromCharMacro(FileName);
   vtkGetCharFromStdStringMacro(FileName);
+  ///@}
+
+  ///@{
+  /** A scene itself, as the text of such a file, in place of one; files that it names are looked for from
+   * the current folder. Default empty. */
+  vtkSetStdStringFromCharMacro(SceneText);
+  vtkGetCharFromStdStringMacro(SceneText);
   ///@}
 
   ///@{
@@ -63,8 +75,10 @@ private:
   void operator=(const vtkVesicleSceneReader&) = delete;
 
   class Run;
+  lamella::Scene Open() const;
 
   std::string FileName;
+  std::string SceneText;
   std::vector<std::string> Overrides;
   std::unique_ptr<Run> Current;
 };

@@ -168,6 +168,18 @@ TEST_F(Readers, OpenBuiltinScenesWithOverrides) {
   EXPECT_EQ(times_of(reader).size(), std::size_t(builtin_scene("fig3_oblate").output.frames));
 }
 
+TEST_F(Readers, OpenTheTextOfAScene) {
+  vtkNew<vtkVesicleSceneReader> reader;
+  reader->SetFileName("no such file");
+  reader->SetSceneText(text);
+  reader->AddOverride("output.frames=2");
+  EXPECT_THAT(times_of(reader), testing::ElementsAre(0, 1e-4));
+  EXPECT_EQ(error_of(reader), "");
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 32 * 32 * 32);
+  reader->SetSceneText("[shape]\nkind = 'spher'");
+  EXPECT_THAT(error_of(reader), HasSubstr("scene:2: [shape] kind"));
+}
+
 TEST_F(Readers, StartWhereAStoredRunEnds) {
   store_run();
   write(folder_ / "later.toml", "[grid]\nnodes = 32\n[shape]\nkind = \"frame\"\nfile = \".\"\n"

@@ -27,6 +27,12 @@ std::string find_frame(const fs::path& home, const std::string& name) {
   return is_builtin(name) && !fs::exists(file, ignored) ? name : fs::absolute(file).string();
 }
 
+Scene with_frames_found(Scene scene, const fs::path& home) {
+  if (scene.shape.kind == ShapeKind::frame) scene.shape.file = find_frame(home, scene.shape.file);
+  if (!scene.domains.file.empty()) scene.domains.file = find_frame(home, scene.domains.file);
+  return scene;
+}
+
 } // namespace
 
 Scene open_scene(const std::string& name, const std::vector<std::string>& overrides) {
@@ -34,11 +40,12 @@ Scene open_scene(const std::string& name, const std::vector<std::string>& overri
   const fs::path file = name;
   const bool builtin = !fs::exists(file, ignored) && !file.has_parent_path() &&
                        file.extension() != ".toml"; // what that is not, it says
-  Scene scene = builtin ? builtin_scene(name, overrides) : read_scene(name, overrides);
-  const fs::path home = file.parent_path();
-  if (scene.shape.kind == ShapeKind::frame) scene.shape.file = find_frame(home, scene.shape.file);
-  if (!scene.domains.file.empty()) scene.domains.file = find_frame(home, scene.domains.file);
-  return scene;
+  return with_frames_found(builtin ? builtin_scene(name, overrides) : read_scene(name, overrides),
+                           file.parent_path());
+}
+
+Scene scene_of_text(const std::string& text, const std::vector<std::string>& overrides) {
+  return with_frames_found(parse_scene(text, "scene", overrides), {});
 }
 
 Start open_start(const Scene& scene, const Trajectory::GoOn& go_on) {

@@ -12,6 +12,9 @@ namespace lamella {
 /// folder; their paths are then whole. Throws SceneError.
 Scene open_scene(const std::string& name, const std::vector<std::string>& overrides);
 
+/// The same for the text of a scene; frames are looked for from the current folder.
+Scene scene_of_text(const std::string& text, const std::vector<std::string>& overrides);
+
 /// What such a scene starts from. Where that is the end of a built-in scene, that runs first, on
 /// the grid of this one. Throws SceneError, RunError, StoreError.
 Start open_start(const Scene& scene, const Trajectory::GoOn& go_on);
