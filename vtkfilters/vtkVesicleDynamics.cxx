@@ -87,7 +87,7 @@ lamellaProperty(vtkVesicleDynamics, OutputFrames, int, output.frames);
 vtkVesicleDynamics::vtkVesicleDynamics()
   : Scene(std::make_unique<lamella::Scene>())
 {
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 vtkVesicleDynamics::~vtkVesicleDynamics() = default;

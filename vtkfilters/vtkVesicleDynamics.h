@@ -39,6 +39,10 @@
  * the run, with the columns of history.csv (docs/command-line.md), all of them double. Steps beyond
  * the last time step, towards a time between two, have no rows.
  *
+ * Output 2: vtkTable, the events until the time of output 0, a row each, with the columns of events.csv:
+ * `kind` is text (fission, rupture, fusion, vanished, recentred, domains_merged, domain_parted,
+ * domain_vanished, sharp, thin_inside, thin_outside), all others double; (`x`, `y`, `z`) is the place.
+ *
  * T. Zhang, C. W. Wolgemuth, J. Comput. Phys. 450 (2022) 110815.
  *
  * @sa vtkVesicleSource vtkMembraneSurface vtkMembraneMeasures

@@ -42,7 +42,7 @@ const lamella::Measures& RowAt(const std::vector<lamella::Measures>& history, do
 vtkVesicleRunReader::vtkVesicleRunReader()
 {
   this->SetNumberOfInputPorts(0);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 int vtkVesicleRunReader::CanReadFile(const char* name)
@@ -109,6 +109,8 @@ int vtkVesicleRunReader::RequestData(
       lamella::fill_state(*vtkImageData::GetData(output, 0), lamella::read_frame(file),
         RowAt(history, time), scene);
       lamella::fill_history(*vtkTable::GetData(output, 1), history, time * (1 + Rounding));
+      lamella::fill_events(*vtkTable::GetData(output, 2), lamella::read_events(run.events),
+        time * (1 + Rounding));
     });
 }
 

@@ -31,7 +31,7 @@ public:
 vtkVesicleSceneReader::vtkVesicleSceneReader()
 {
   this->SetNumberOfInputPorts(0);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 vtkVesicleSceneReader::~vtkVesicleSceneReader() = default;

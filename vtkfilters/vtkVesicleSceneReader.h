@@ -7,9 +7,10 @@
  * are asked for and kept. They are those that `lamella run` stores. A scene that starts from the end
  * of a built-in one runs that first.
  *
- * Output 0: vtkImageData with phi, psi and c; output 1: vtkTable, the history. Arrays, field data,
- * progress, aborting and errors are those of vtkVesicleDynamics, see there. A mistake in the scene is
- * an error with file, line, key and what is allowed; there are then no times.
+ * Output 0: vtkImageData with phi, psi and c; output 1: vtkTable, the history; output 2:
+ * vtkTable, the events. Arrays, field data, progress, aborting and errors are those of
+ * vtkVesicleDynamics, see there. A mistake in the scene is an error with file, line, key and what is
+ * allowed; there are then no times.
  *
  * @sa vtkVesicleDynamics vtkVesicleRunReader
  */

@@ -91,6 +91,16 @@ def _filtered(algorithm, image, properties):
     return update(algorithm).GetOutputDataObject(0)
 
 
+def records(table):
+    """The rows of a table as dicts: floats, and text where a column has text."""
+    columns = [table.GetColumn(index) for index in range(table.GetNumberOfColumns())]
+
+    def value(column, row):
+        return column.GetValue(row) if column.IsA("vtkStringArray") else column.GetTuple1(row)
+
+    return [{column.GetName(): value(column, row) for column in columns} for row in range(table.GetNumberOfRows())]
+
+
 def fields(data):
     """The field data that are single numbers, by name."""
     field_data = data.GetFieldData()

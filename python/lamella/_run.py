@@ -10,7 +10,7 @@ import numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
-from ._data import arrays, boundary, fields, surface, time_of, update
+from ._data import arrays, boundary, fields, records, surface, time_of, update
 from .vtkLamellaFilters import vtkVesicleRunReader, vtkVesicleSceneReader
 
 
@@ -67,6 +67,12 @@ class Run:
         """The start and every step until the frame last asked for, as dict of float64 arrays,
         shape (rows,), named as the columns of history.csv."""
         return arrays(self.reader.GetOutputDataObject(1))
+
+    @property
+    def events(self):
+        """What happened until the frame last asked for: a list of dicts with the columns of
+        events.csv, `kind` ("fission", "rupture", ...), `t`, `x`, `y`, `z`, `size`, ..."""
+        return records(self.reader.GetOutputDataObject(2))
 
     def __len__(self):
         return len(self.times)

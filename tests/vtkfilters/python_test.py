@@ -25,6 +25,12 @@ TWO_PHASES = {
     "run": {"end_time": 1e-5},
 }
 
+SHARP = {
+    "grid": {"nodes": 24},
+    "shape": {"kind": "prolate", "semi_axis": 0.7, "reduced_volume": 0.7},
+    "run": {"end_time": 1e-6},
+}
+
 
 class Runs(unittest.TestCase):
     def test_frames_of_a_dict(self):
@@ -53,6 +59,15 @@ class Runs(unittest.TestCase):
         self.assertGreater(len(history["t"]), 3)
         self.assertEqual(history["energy"].shape, history["t"].shape)
         self.assertTrue((numpy.diff(history["t"]) > 0).all())
+
+    def test_events(self):
+        run = lamella.run(SHARP)
+        run[-1]
+        self.assertEqual(run.events[0]["kind"], "sharp")
+        self.assertLess(run.events[0]["size"], 2 / 24)
+        smooth = lamella.run(SCENE)
+        smooth[0]
+        self.assertEqual(smooth.events, [])
 
     def test_scene_file_with_overrides(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -63,6 +63,7 @@ protected:
       write_frame(folder_ / "frames" / name, simulation.frame());
       series.push_back({name, simulation.time()});
     };
+    EventWriter events(folder_ / "events.csv");
     history.add(simulation.measures());
     store();
     for (const double goal : {5e-5, 1e-4}) {
@@ -72,6 +73,8 @@ protected:
       }
       store();
     }
+    for (const Event& event : simulation.events()) events.add(event);
+    events.add({.kind = Event::Kind::fission, .time = 6e-5, .place = {0.25, 0, 0}, .size = 0.03});
     write_series(folder_ / "frames" / "frames.hdf.series", series);
   }
 
@@ -121,7 +124,25 @@ TEST_F(Readers, GiveTheSameForASceneAndItsStoredRun) {
     };
     EXPECT_EQ(rows(scene), rows(run)) << time;
     EXPECT_EQ(rows(run) == 1, time == 0);
+    EXPECT_EQ(vtkTable::SafeDownCast(scene->GetOutputDataObject(2))->GetNumberOfRows(), 0);
   }
+}
+
+TEST_F(Readers, TellTheEventsOfARunUntilATime) {
+  store_run();
+  const auto run = run_reader(folder_);
+  const auto events_at = [&](double time) {
+    run->UpdateTimeStep(time);
+    return vtkTable::SafeDownCast(run->GetOutputDataObject(2));
+  };
+  EXPECT_EQ(events_at(5e-5)->GetNumberOfRows(), 0);
+  vtkTable* events = events_at(1e-4);
+  ASSERT_EQ(events->GetNumberOfRows(), 1);
+  EXPECT_EQ(events->GetValueByName(0, "kind").ToString(), "fission");
+  EXPECT_EQ(events->GetValueByName(0, "x").ToDouble(), 0.25);
+  EXPECT_EQ(events->GetNumberOfColumns(), 19);
+  fs::remove(folder_ / "events.csv");
+  EXPECT_THAT(error_of(run_reader(folder_)), HasSubstr("events.csv"));
 }
 
 TEST_F(Readers, FindARunByAnyOfItsFiles) {

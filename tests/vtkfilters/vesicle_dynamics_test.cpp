@@ -164,6 +164,31 @@ TEST(VesicleDynamics, TellsTheHistory) {
   EXPECT_EQ(history->GetNumberOfRows(), 1);
 }
 
+/// Of two balls that touch, in a box that is somewhere else: the neck is sharper than the grid.
+TEST(VesicleDynamics, TellsWhatHappened) {
+  Frame frame;
+  frame.grid = Grid::cube(32, 1);
+  for (std::size_t n = 0; n < frame.grid.size(); ++n) {
+    const auto [x, y, z] = frame.grid.position(n);
+    frame.phi.push_back(std::hypot(std::abs(x) - 0.3, y, z) - 0.31);
+  }
+  const auto image = image_of(frame);
+  image->SetOrigin(image->GetOrigin()[0] + 5, image->GetOrigin()[1], image->GetOrigin()[2]);
+  const auto dynamics = dynamics_of(image);
+  dynamics->UpdateTimeStep(0);
+  vtkTable* events = vtkTable::SafeDownCast(dynamics->GetOutputDataObject(2));
+  EXPECT_EQ(events->GetNumberOfColumns(), 19);
+  ASSERT_GE(events->GetNumberOfRows(), 1);
+  EXPECT_EQ(events->GetValueByName(0, "kind").ToString(), "sharp");
+  EXPECT_EQ(events->GetValueByName(0, "t").ToDouble(), 0);
+  EXPECT_NEAR(events->GetValueByName(0, "x").ToDouble(), 5, 0.1) << "where the neck is";
+  const auto smooth = dynamics_of(start());
+  smooth->Update();
+  events = vtkTable::SafeDownCast(smooth->GetOutputDataObject(2));
+  EXPECT_EQ(events->GetNumberOfRows(), 0);
+  EXPECT_EQ(events->GetNumberOfColumns(), 19) << "also without rows";
+}
+
 TEST(VesicleDynamics, ComputesAnewOnlyWhatChanges) {
   const auto dynamics = dynamics_of(start());
   dynamics->UpdateTimeStep(end);

@@ -56,7 +56,8 @@ RunFiles find_run_files(const fs::path& path) {
                                  "\"lamella run\" makes it, holds scene.toml and history.csv",
                                  path.string()));
   const fs::path series = *folder / "frames" / "frames.hdf.series";
-  RunFiles run{*folder / "scene.toml", *folder / "history.csv", read_series(series)};
+  RunFiles run{*folder / "scene.toml", *folder / "history.csv", *folder / "events.csv",
+               read_series(series)};
   if (run.frames.empty())
     throw StoreError(fmt::format("{}: the run has no frames", folder->string()));
   return run;

@@ -65,6 +65,7 @@ void serve(vtkAlgorithm* self, Trajectory& trajectory, const Vec3& center, vtkIn
   fill_state(*vtkImageData::GetData(&output, 0), state.frame, state.measures, trajectory.scene(),
              center);
   fill_history(*vtkTable::GetData(&output, 1), trajectory.history(), state.frame.time);
+  fill_events(*vtkTable::GetData(&output, 2), trajectory.events(), state.frame.time, center);
   if (trajectory.failure() && time > trajectory.time())
     vtkErrorWithObjectMacro(self, << fmt::format("the run stopped at t = {:.6g}: {}",
                                                  trajectory.time(), *trajectory.failure()));

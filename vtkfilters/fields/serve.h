@@ -23,9 +23,9 @@ double requested_time(vtkInformation& request, vtkInformationVector& output);
 /// Tells the progress of an algorithm towards a time; false once it is aborted.
 Trajectory::GoOn until_aborted(vtkAlgorithm* self, double time);
 
-/// Fills the outputs of an algorithm over time: the image (port 0) and the history (port 1) of a
-/// scene whose box is around a centre, at the requested time. Where a run ended before by an error,
-/// that is the algorithm's.
+/// Fills the outputs of an algorithm over time: the image (port 0), the history (1) and the events
+/// (2) of a scene whose box is around a centre, at the requested time. Where a run ended before by
+/// an error, that is the algorithm's.
 void serve(vtkAlgorithm* self, Trajectory& trajectory, const Vec3& center, vtkInformation& request,
            vtkInformationVector& output);
 

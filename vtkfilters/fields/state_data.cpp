@@ -6,15 +6,50 @@
 
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 
 #include <string>
+#include <vector>
 
 namespace lamella {
 namespace {
 
+bool is_text(const Field& field) { return std::holds_alternative<Event::Kind*>(field.value); }
+
 double number_in(const Field& field) {
   if (const auto* real = std::get_if<double*>(&field.value)) return **real;
-  return *std::get<int*>(field.value); // measures have no others
+  return *std::get<int*>(field.value);
+}
+
+std::string text_in(const Field& field) {
+  return std::string(to_string(*std::get<Event::Kind*>(field.value)));
+}
+
+void add_column(vtkTable& table, const Field& field) {
+  auto column = is_text(field) ? vtkSmartPointer<vtkAbstractArray>(vtkNew<vtkStringArray>())
+                               : vtkSmartPointer<vtkAbstractArray>(vtkNew<vtkDoubleArray>());
+  column->SetName(std::string(field.column).c_str());
+  table.AddColumn(column);
+}
+
+void append(vtkAbstractArray& column, const Field& field) {
+  if (is_text(field))
+    vtkStringArray::SafeDownCast(&column)->InsertNextValue(text_in(field));
+  else
+    vtkDoubleArray::SafeDownCast(&column)->InsertNextValue(number_in(field));
+}
+
+/// The records (measures, events) until a time, in the columns that one like them has.
+template <class Record>
+void fill_table(vtkTable& table, std::span<const Record> records, double until, Record like) {
+  table.Initialize();
+  for (const Field& field : row_of(like)) add_column(table, field);
+  for (Record record : records) {
+    if (record.time > until) break;
+    vtkIdType index = 0;
+    for (const Field& field : row_of(record)) append(*table.GetColumn(index++), field);
+  }
 }
 
 void add_elasticity(vtkImageData& image, const std::string& section, double bending_modulus,
@@ -39,21 +74,14 @@ void fill_state(vtkImageData& image, const Frame& frame, const Measures& measure
 }
 
 void fill_history(vtkTable& table, std::span<const Measures> history, double until) {
-  table.Initialize();
-  if (history.empty()) return;
-  Measures row = history.front();
-  for (const Field& field : row_of(row)) {
-    vtkNew<vtkDoubleArray> column;
-    column->SetName(std::string(field.column).c_str());
-    table.AddColumn(column);
-  }
-  for (const Measures& measures : history) {
-    if (measures.time > until) break;
-    row = measures;
-    vtkIdType index = 0;
-    for (const Field& field : row_of(row))
-      vtkDoubleArray::SafeDownCast(table.GetColumn(index++))->InsertNextValue(number_in(field));
-  }
+  fill_table(table, history, until, history.empty() ? Measures() : history.front());
+}
+
+void fill_events(vtkTable& table, std::span<const Event> events, double until, const Vec3& center) {
+  std::vector<Event> moved(events.begin(), events.end());
+  for (Event& event : moved)
+    for (int a = 0; a < 3; ++a) event.place[a] += center[a];
+  fill_table<Event>(table, moved, until, Event());
 }
 
 } // namespace lamella

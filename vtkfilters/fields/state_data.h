@@ -1,4 +1,5 @@
 #pragma once
+#include "dynamics/event.h"
 #include "dynamics/measures.h"
 #include "grid/grid.h"
 #include "scene/scene.h"
@@ -17,5 +18,9 @@ void fill_state(vtkImageData& image, const Frame& frame, const Measures& measure
 
 /// Measures until a time (included), one row each, in the columns of history.csv.
 void fill_history(vtkTable& table, std::span<const Measures> history, double until);
+
+/// The same of events in a box around a centre, in the columns of events.csv; the kind is text.
+void fill_events(vtkTable& table, std::span<const Event> events, double until,
+                 const Vec3& center = {});
 
 } // namespace lamella

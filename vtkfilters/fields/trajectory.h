@@ -36,6 +36,8 @@ public:
 
   /// The start and every step of the run, as far as it was computed.
   const std::vector<Measures>& history() const { return history_; }
+  /// What happened until then.
+  std::span<const Event> events() const { return simulation_.events(); }
   /// Why the run cannot be continued beyond time(); nothing where it can, or ended by its rules.
   const std::optional<std::string>& failure() const { return failure_; }
   double time() const { return simulation_.time(); }
