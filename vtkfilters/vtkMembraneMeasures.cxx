@@ -129,6 +129,10 @@ int vtkMembraneMeasures::RequestData(
     {
       vtkImageData* image = vtkImageData::GetData(input[0]);
       const auto vesicle = lamella::vesicle_in(*image, this->PhiArray);
+      if (this->Next == 0)
+      {
+        lamella::remark(this, vesicle.remark);
+      }
       const auto elasticity =
         lamella::elasticity_of(*image, { this->BendingModulus, this->SpontaneousCurvature });
       const auto measures = lamella::measure(vesicle.frame, elasticity);

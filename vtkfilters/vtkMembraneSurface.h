@@ -11,8 +11,9 @@
  * The mesh is closed: every edge is shared by two triangles, wound around the outward normal. Its
  * area is less than the solver's, by less than 1e-3 of it with the automatic refinement.
  *
- * Input: vtkImageData, equally spaced along x, y, z, positive phi at all its sides. Point data of
- * one component each:
+ * Input: vtkImageData, positive phi at all its sides; with a warning, also of different spacings along
+ * x, y, z, which is resampled to the smallest, or a mask of two values, which is smoothed (docs/vtk.md).
+ * Point data of one component each:
  * - phi (another name: SetPhiArray; an image's only array is taken whatever its name)
  * - psi, optional: phases, negative in Ld, positive in Lo
  * - c, optional: local stretch, the lipid per area over its rest value

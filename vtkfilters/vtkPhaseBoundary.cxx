@@ -120,6 +120,7 @@ int vtkPhaseBoundary::RequestData(
     [&]
     {
       const auto vesicle = lamella::vesicle_in(*vtkImageData::GetData(input[0]), this->PhiArray);
+      lamella::remark(this, vesicle.remark);
       if (vesicle.frame.psi.empty())
       {
         throw lamella::InputError("the image has no point data array \"psi\": the membrane has "

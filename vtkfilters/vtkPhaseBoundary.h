@@ -13,8 +13,9 @@
  * is right-handed, so that Ld lies to the left of t as seen from outside. On the unit sphere kn =
  * B_perp = -1; the circle of radius r around a cap of Ld has kg = -sqrt(1 - r^2) / r.
  *
- * Input: vtkImageData, equally spaced along x, y, z, positive phi at all its sides. Point data of
- * one component each:
+ * Input: vtkImageData, positive phi at all its sides; with a warning, also of different spacings along
+ * x, y, z, which is resampled to the smallest, or a mask of two values, which is smoothed (docs/vtk.md).
+ * Point data of one component each:
  * - phi (another name: SetPhiArray), negative inside
  * - psi, negative in Ld, positive in Lo
  *

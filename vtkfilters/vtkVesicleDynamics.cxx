@@ -23,6 +23,31 @@ namespace
 constexpr std::array<std::string_view, 13> Sections = { "membrane", "domains", "ld", "lo", "line",
   "stretch", "volume", "area_difference", "contact", "run", "stop", "numerics", "output" };
 
+/** The nodes of an image to come; none where nothing is known of it. */
+lamella::Lattice AnnouncedLattice(vtkInformation& info)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  lamella::Lattice lattice{ { 1, 1, 1 }, { 1, 1, 1 } };
+  if (!info.Has(Pipeline::WHOLE_EXTENT()))
+  {
+    return lattice;
+  }
+  const int* extent = info.Get(Pipeline::WHOLE_EXTENT());
+  if (info.Has(vtkDataObject::SPACING()))
+  {
+    std::copy_n(info.Get(vtkDataObject::SPACING()), 3, lattice.spacing.begin());
+  }
+  const double* origin =
+    info.Has(vtkDataObject::ORIGIN()) ? info.Get(vtkDataObject::ORIGIN()) : nullptr;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    lattice.nodes[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
+    lattice.first[axis] =
+      (origin ? origin[axis] : 0) + extent[2 * axis] * lattice.spacing[axis];
+  }
+  return lattice;
+}
+
 lamella::Trajectory Begin(const lamella::Scene& scene, lamella::Frame start)
 {
   lamella::validate(scene);
@@ -35,16 +60,30 @@ lamella::Trajectory Begin(const lamella::Scene& scene, lamella::Frame start)
 class vtkVesicleDynamics::Run
 {
 public:
-  Run(const lamella::Scene& scene, const lamella::ImageVesicle& vesicle, vtkMTimeType inputTime)
+  Run(const lamella::Scene& scene, const lamella::ImageVesicle& vesicle, vtkMTimeType inputTime,
+    const std::string& phiArray)
     : InputTime(inputTime)
-    , Parameters(lamella::to_toml(scene))
+    , PhiArray(phiArray)
     , Center(vesicle.center)
-    , Trajectory(Begin(scene, lamella::start_frame(vesicle)))
+    , Trajectory(Begin(
+        lamella::with_start(scene, vesicle.frame.grid, !vesicle.frame.psi.empty()), vesicle.frame))
   {
   }
 
+  /** Whether these would make the same run. */
+  bool IsOf(lamella::Scene scene, vtkMTimeType inputTime, const std::string& phiArray) const
+  {
+    const lamella::Scene& own = this->Trajectory.scene();
+    scene.nodes = own.nodes; // the start is that of the input
+    scene.half_width = own.half_width;
+    scene.shape = own.shape;
+    scene.domains = own.domains;
+    return this->InputTime == inputTime && this->PhiArray == phiArray &&
+      lamella::to_toml(scene) == lamella::to_toml(own); // what counts
+  }
+
   vtkMTimeType InputTime;
-  std::string Parameters;
+  std::string PhiArray;
   lamella::Vec3 Center;
   lamella::Trajectory Trajectory;
 };
@@ -98,10 +137,20 @@ int vtkVesicleDynamics::FillOutputPortInformation(int port, vtkInformation* info
   return 1;
 }
 
+/** What is wrong with the image, or the parameters, is said with the data. */
 int vtkVesicleDynamics::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
   lamella::offer_times(*output, lamella::stored_times(*this->Scene));
+  try
+  {
+    const auto [grid, center] =
+      lamella::solver_place(AnnouncedLattice(*input[0]->GetInformationObject(0)));
+    lamella::offer_grid(*output->GetInformationObject(0), grid, center);
+  }
+  catch (const lamella::InputError&)
+  {
+  }
   return 1;
 }
 
@@ -128,16 +177,15 @@ int vtkVesicleDynamics::RequestUpdateExtent(
 
 void vtkVesicleDynamics::BeginRunIfNeeded(vtkImageData& image)
 {
-  const auto vesicle = lamella::vesicle_in(image, this->PhiArray);
-  const lamella::Scene scene = lamella::with_start(*this->Scene, vesicle.frame);
   const vtkMTimeType time = image.GetMTime();
-  if (this->Current && this->Current->InputTime == time &&
-    this->Current->Parameters == lamella::to_toml(scene))
+  if (this->Current && this->Current->IsOf(*this->Scene, time, this->PhiArray))
   {
     return;
   }
   this->Current.reset();
-  this->Current = std::make_unique<Run>(scene, vesicle, time);
+  const auto vesicle = lamella::start_of(lamella::vesicle_in(image, this->PhiArray));
+  lamella::remark(this, vesicle.remark);
+  this->Current = std::make_unique<Run>(*this->Scene, vesicle, time, this->PhiArray);
 }
 
 int vtkVesicleDynamics::RequestData(

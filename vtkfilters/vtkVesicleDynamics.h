@@ -17,10 +17,13 @@
  * error, the output is the last good state; its time tells. After AbortExecuteOff() an aborted run
  * goes on.
  *
- * Input: vtkImageData, multiples of 8 from 16 to 512 nodes along each axis, equally spaced along x, y,
- * z, in a periodic box. Only its first time step is used. Point data of one component each:
+ * Input: vtkImageData, of up to 512 nodes along each axis. Only its first time step is used. The
+ * solver's grid has multiples of 8 nodes, equally spaced along x, y, z: other images are resampled to
+ * the smallest of their spacings and widened by whole nodes, and a warning says so. Point data of one
+ * component each:
  * - phi (another name: SetPhiArray; an image's only array is taken whatever its name), negative
- *   inside, positive at all sides of the box. It need not be a distance, but should be smooth.
+ *   inside, positive at all sides of the box. It need not be a distance, but should be smooth; or a
+ *   mask of two values, inside where it is negative, else where it is larger, which is smoothed.
  * - psi, optional: phases, negative in Ld, positive in Lo
  * - c, optional: local stretch, where StretchModulus is not 0
  *

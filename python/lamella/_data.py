@@ -1,6 +1,7 @@
 """VTK data as numpy arrays, errors as exceptions."""
 
 import re
+import warnings
 
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -16,14 +17,18 @@ class Error(RuntimeError):
 
 def update(algorithm, time=None):
     """Update an algorithm, at a time if one is given, and return it. Raises Error for what it, or
-    an algorithm before it, reports."""
-    found = []
+    an algorithm before it, reports; its warnings become Python's."""
+    errors, remarks = [], []
 
-    @calldata_type(VTK_STRING)
-    def note(_caller, _event, text):
-        found.append(re.sub(r"^ERROR: .*\n[^:]*: ", "", text).strip())
+    def noting(texts):
+        @calldata_type(VTK_STRING)
+        def note(_caller, _event, text):
+            texts.append(re.sub(r"^(ERROR|Warning): .*\n[^:]*: ", "", text).strip())
 
-    watched = [(a, a.AddObserver("ErrorEvent", note)) for a in _pipeline(algorithm)]
+        return note
+
+    watched = [(a, a.AddObserver(event, noting(texts))) for a in _pipeline(algorithm)
+               for event, texts in (("ErrorEvent", errors), ("WarningEvent", remarks))]
     try:
         if time is None:
             algorithm.Update()
@@ -32,8 +37,10 @@ def update(algorithm, time=None):
     finally:
         for one, tag in watched:
             one.RemoveObserver(tag)
-    if found:
-        raise Error("\n".join(found))
+    for remark in remarks:
+        warnings.warn(remark, stacklevel=2)
+    if errors:
+        raise Error("\n".join(errors))
     return algorithm
 
 

@@ -42,7 +42,10 @@ inline std::vector<BadImage> bad_images() {
   add("about a distance", scale_phi(1e200));
   add("about a distance", scale_phi(1e-200));
   add("the membrane is not closed", scale_phi(-1));
-  add("spacings of 0.1, 0.1 and 0.2", [](vtkImageData& image) { image.SetSpacing(.1, .1, .2); });
+  add("spacings of 0.1, 0, 0.1; they must be positive",
+      [](vtkImageData& image) { image.SetSpacing(.1, 0, .1); });
+  add("would have 32 x 32 x 3100004 nodes",
+      [](vtkImageData& image) { image.SetSpacing(1e-5, 1e-5, 1); });
   add("the image is turned",
       [](vtkImageData& image) { image.SetDirectionMatrix(0, 1, 0, -1, 0, 0, 0, 0, 1); });
   add("2 components", [](vtkImageData& image) {

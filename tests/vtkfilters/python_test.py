@@ -6,6 +6,7 @@ import unittest
 
 import lamella
 import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 
 SCENE = {
@@ -108,6 +109,16 @@ class Arrays(unittest.TestCase):
         self.assertEqual(arrays["Normals"].shape, (points, 3))
         self.assertEqual(arrays["K_M"].shape, (points,))
         self.assertLess(arrays["K_M"].max(), 0)
+
+    def test_masks(self):
+        nodes = numpy.indices((24, 24, 24)) - 11.5
+        mask = (numpy.sqrt((nodes**2).sum(axis=0)) < 8).astype(numpy.uint8)
+        image = vtkImageData()
+        image.SetDimensions(24, 24, 24)
+        image.GetPointData().AddArray(numpy_to_vtk(mask.ravel(), deep=True))
+        with self.assertWarnsRegex(UserWarning, "^phi is 0 or 1: taken for a mask"):
+            found = lamella.measures(image)
+        self.assertAlmostEqual(found["V"] / mask.sum(), 1, 2)
 
     def test_measures(self):
         frame = lamella.run(SCENE)[0]

@@ -326,8 +326,8 @@ TEST(VesicleDynamics, SaysWhatIsWrongWithAnImage) {
     EXPECT_THAT(error_of(dynamics), HasSubstr(bad.complaint));
     EXPECT_EQ(dynamics->GetOutput()->GetNumberOfPoints(), 0);
   }
-  EXPECT_THAT(error_of(dynamics_of(image_of(frame_of(sphere(0.3), Grid{{36, 32, 32}, 0.05})))),
-              HasSubstr("36 x 32 x 32 nodes; along each axis the solver takes an integer multiple "
+  EXPECT_THAT(error_of(dynamics_of(image_of(frame_of(sphere(0.3), Grid{{520, 16, 16}, 0.05})))),
+              HasSubstr("520 x 16 x 16 nodes; along each axis the solver takes an integer multiple "
                         "of 8 from 16 to 512"));
 }
 

@@ -1,6 +1,6 @@
 #include "fields/refine.h"
 
-#include "parallel.h"
+#include "fields/resample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,56 +8,10 @@
 namespace lamella {
 namespace {
 
-constexpr int taps = 6;
-
-/// Lagrange weights of the nodes -2 .. 3 at position t.
-std::array<double, taps> lagrange_weights(double t) {
-  std::array<double, taps> weights;
-  for (int i = 0; i < taps; ++i) {
-    weights[i] = 1;
-    for (int j = 0; j < taps; ++j)
-      if (j != i) weights[i] *= (t - (j - 2)) / (i - j);
-  }
-  return weights;
-}
-
-/// Where a value of the refined lattice comes from, along one axis.
-struct Stencil {
-  int base; ///< the node before it
-  std::array<double, taps> weights;
-};
-
-std::vector<Stencil> stencils(int nodes, int factor) {
-  std::vector<Stencil> out;
-  for (int i = 0; i < nodes * factor; ++i) {
-    const double position = (i + 0.5) / factor - 0.5; // in old nodes; cells stay aligned
-    const int base = int(std::floor(position));
-    out.push_back({base, lagrange_weights(position - base)});
-  }
-  return out;
-}
-
-/// Refine along one axis; `inner` values lie between neighbours along it.
-std::vector<double> refine_axis(const std::vector<double>& in, int nodes, std::size_t inner,
-                                int factor) {
-  const std::vector<Stencil> along = stencils(nodes, factor);
-  std::vector<double> out(in.size() * factor);
-  const std::size_t rows = out.size() / inner, grain = std::max<std::size_t>(1, 16384 / inner);
-  parallel_for(rows, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t r = begin; r < end; ++r) {
-      const auto& [base, weights] = along[r % along.size()];
-      const std::size_t first = r / along.size() * nodes;
-      std::array<const double*, taps> from;
-      for (int k = 0; k < taps; ++k)
-        from[k] = &in[(first + std::clamp(base - 2 + k, 0, nodes - 1)) * inner];
-      double* row = &out[r * inner];
-      for (std::size_t q = 0; q < inner; ++q) {
-        double sum = 0;
-        for (int k = 0; k < taps; ++k) sum += weights[k] * from[k][q];
-        row[q] = sum;
-      }
-    }
-  });
+/// Positions of the refined nodes, in old ones; cells stay aligned.
+std::vector<double> positions(int nodes, int factor) {
+  std::vector<double> out;
+  for (int i = 0; i < nodes * factor; ++i) out.push_back((i + 0.5) / factor - 0.5);
   return out;
 }
 
@@ -105,8 +59,11 @@ Frame refine(const Frame& frame, int factor) {
       .grid = frame.grid, .time = frame.time, .phi = frame.phi, .psi = frame.psi, .c = frame.c};
   std::size_t inner = 1;
   for (int axis = 0; axis < 3; ++axis) {
+    const int nodes = frame.grid.nodes[axis];
+    const std::vector<double> at = positions(nodes, factor);
     for (std::vector<double>* values : {&fine.phi, &fine.psi, &fine.c})
-      if (!values->empty()) *values = refine_axis(*values, frame.grid.nodes[axis], inner, factor);
+      if (!values->empty())
+        *values = interpolate_axis(*values, nodes, inner, at, Interpolation::smooth);
     fine.grid.nodes[axis] *= factor;
     inner *= fine.grid.nodes[axis];
   }

@@ -2,6 +2,7 @@
 #include <vtkAlgorithm.h>
 
 #include <exception>
+#include <string>
 
 namespace lamella {
 
@@ -15,6 +16,11 @@ int reporting(vtkAlgorithm* self, Work&& work) {
     vtkErrorWithObjectMacro(self, << error.what());
   }
   return 1;
+}
+
+/// Says what is done to the data, where something is, as a warning.
+inline void remark(vtkAlgorithm* self, const std::string& what) {
+  if (!what.empty()) vtkWarningWithObjectMacro(self, << what);
 }
 
 } // namespace lamella

@@ -2,9 +2,13 @@
 
 #include "fields/measure.h"
 #include "fields/spline_geometry.h"
+#include "parallel.h"
+
+#include <unsupported/Eigen/SpecialFunctions>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lamella {
 
@@ -40,6 +44,21 @@ void set_volume(const Grid& grid, double volume, std::vector<double>& phi) {
     const double missing = (volume - size.volume) / size.area;
     for (double& value : phi) value -= missing;
   }
+}
+
+/// A plane edge, blurred by a Gaussian, is the normal distribution of the distance from it.
+std::vector<double> from_mask(const Grid& grid, double width, std::vector<double> share) {
+  constexpr double least = 1e-12; // of a share: 7 standard deviations
+  const double h = grid.spacing,
+               volume = h * h * h * std::accumulate(share.begin(), share.end(), 0.0);
+  blur(grid, width, share);
+  parallel_for(share.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      share[i] = -width * h * Eigen::numext::ndtri(std::clamp(share[i], least, 1 - least));
+  });
+  if (*std::ranges::min_element(share) >= 0) return {};
+  set_volume(grid, volume, share);
+  return share;
 }
 
 } // namespace lamella

@@ -26,34 +26,95 @@ double slope_of(const Frame& frame) {
   return sum / double(slopes.size());
 }
 
-void check_nodes(const Grid& grid) {
-  const Key& key = *find_key("grid", "nodes");
-  if (!std::ranges::all_of(grid.nodes, [&](int n) { return key.range.contains(n); }))
-    throw InputError(fmt::format("the image has {} nodes; along each axis the solver takes {} "
-                                 "(vtkImageResample brings it there)",
-                                 fmt::join(grid.nodes, " x "), allowed_text(key)));
+/// Fields on a wider grid, so many nodes before the first: beyond the old ones their last values,
+/// plus the distance from there times `slope`.
+std::vector<double> widened(const std::vector<double>& values, const Grid& from, const Grid& to,
+                            const std::array<int, 3>& before, double slope) {
+  std::vector<double> out;
+  if (values.empty()) return out;
+  for (int k = 0; k < to.nz(); ++k)
+    for (int j = 0; j < to.ny(); ++j)
+      for (int i = 0; i < to.nx(); ++i) {
+        const std::array<int, 3> at{i - before[0], j - before[1], k - before[2]};
+        std::array<int, 3> nearest, off;
+        for (int a = 0; a < 3; ++a) {
+          nearest[a] = std::clamp(at[a], 0, from.nodes[a] - 1);
+          off[a] = at[a] - nearest[a];
+        }
+        out.push_back(values[from.index(nearest[0], nearest[1], nearest[2])] +
+                      slope * from.spacing * std::hypot(off[0], off[1], off[2]));
+      }
+  return out;
+}
+
+std::array<int, 3> nodes_before(const Grid& from, const Grid& to) {
+  std::array<int, 3> before;
+  for (int a = 0; a < 3; ++a) before[a] = (to.nodes[a] - from.nodes[a]) / 2;
+  return before;
+}
+
+void widen(ImageVesicle& vesicle) {
+  Frame& frame = vesicle.frame;
+  const Grid from = frame.grid;
+  const auto [to, center] = solver_place(Place{from, vesicle.center});
+  if (to == from) return;
+  const std::array<int, 3> before = nodes_before(from, to);
+  frame.grid = to;
+  frame.phi = widened(frame.phi, from, to, before, 1);
+  frame.psi = widened(frame.psi, from, to, before, 0);
+  frame.c = widened(frame.c, from, to, before, 0);
+  vesicle.center = center;
+  vesicle.remark += fmt::format("{}the box was widened from {} to {} nodes, multiples of 8",
+                                vesicle.remark.empty() ? "" : "; ", fmt::join(from.nodes, " x "),
+                                fmt::join(to.nodes, " x "));
+}
+
+/// Of nodes along an axis, the next number that the solver takes.
+int solver_nodes(int nodes) {
+  constexpr int multiple = 8, least = 16;
+  return std::max(least, (nodes + multiple - 1) / multiple * multiple);
 }
 
 } // namespace
 
-Frame start_frame(const ImageVesicle& vesicle) {
-  Frame frame = vesicle.frame;
-  check_nodes(frame.grid);
+Place solver_place(const Place& image) {
+  const Key& key = *find_key("grid", "nodes");
+  Place place = image;
+  for (int a = 0; a < 3; ++a) place.grid.nodes[a] = solver_nodes(image.grid.nodes[a]);
+  if (!std::ranges::all_of(place.grid.nodes, [&](int n) { return key.range.contains(n); }))
+    throw InputError(fmt::format("the image has {} nodes; along each axis the solver takes {} "
+                                 "(vtkImageResample makes it coarser)",
+                                 fmt::join(image.grid.nodes, " x "), allowed_text(key)));
+  const std::array<int, 3> before = nodes_before(image.grid, place.grid);
+  for (int a = 0; a < 3; ++a)
+    place.center[a] += image.grid.origin(a) - before[a] * image.grid.spacing - place.grid.origin(a);
+  return place;
+}
+
+Place solver_place(const Lattice& image) {
+  Place place{evened(image)};
+  for (int a = 0; a < 3; ++a) place.center[a] = image.first[a] - place.grid.origin(a);
+  return solver_place(place);
+}
+
+ImageVesicle start_of(ImageVesicle vesicle) {
+  Frame& frame = vesicle.frame;
   frame.time = 0;
   const double slope = slope_of(frame);
   if (!(slope > 1e-300) || !std::isfinite(slope))
     throw InputError("phi is flat where it vanishes; it must change sign across the membrane");
   if (slope > steepest || slope < 1 / steepest)
     for (double& phi : frame.phi) phi /= slope;
+  widen(vesicle);
   level_off(frame.grid, frame.phi);
-  return frame;
+  return vesicle;
 }
 
-Scene with_start(Scene scene, const Frame& frame) {
-  scene.nodes = frame.grid.nodes;
-  scene.half_width = 0.5 * frame.grid.spacing * *std::ranges::min_element(scene.nodes);
+Scene with_start(Scene scene, const Grid& grid, bool has_phases) {
+  scene.nodes = grid.nodes;
+  scene.half_width = 0.5 * grid.spacing * *std::ranges::min_element(scene.nodes);
   scene.shape = {.kind = ShapeKind::frame, .file = "input"};
-  scene.domains = {.kind = frame.psi.empty() ? DomainsKind::none : DomainsKind::frame};
+  scene.domains = {.kind = has_phases ? DomainsKind::frame : DomainsKind::none};
   return scene;
 }
 

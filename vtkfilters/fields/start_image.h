@@ -1,14 +1,25 @@
 #pragma once
 #include "fields/image.h"
+#include "fields/resample.h"
 #include "scene/scene.h"
 
 namespace lamella {
 
-/// What a simulation starts from: the same membrane, with a phi of slope about 1 that levels off
-/// away from it. Throws InputError for a grid that the solver has no use for.
-Frame start_frame(const ImageVesicle& vesicle);
+/// A grid around a centre.
+struct Place {
+  Grid grid;
+  Vec3 center{};
+};
+/// That of the solver around an image: as many more nodes along each axis as make a multiple of 8.
+/// Throws InputError for more than it takes.
+Place solver_place(const Place& image);
+Place solver_place(const Lattice& image);
 
-/// The scene that starts from such a frame: its grid, and phases where it has them.
-Scene with_start(Scene scene, const Frame& frame);
+/// What a simulation starts from: the same membrane on such nodes, with a phi of slope about 1 that
+/// levels off away from it. What was done to the fields is added to the remark.
+ImageVesicle start_of(ImageVesicle vesicle);
+
+/// The scene that starts from such fields: their grid, and phases where they have them.
+Scene with_start(Scene scene, const Grid& grid, bool has_phases);
 
 } // namespace lamella
