@@ -171,13 +171,23 @@ Eigen::Vector4d Constraints::combination(const Eigen::Matrix4d& effect,
   return all;
 }
 
-Multipliers Constraints::multipliers(const SurfaceIntegrals& integrals,
-                                     const Quantities& rate) const {
-  Eigen::Vector4d given = given_;
-  for (const int i : indices_) given[i] = 0;
-  const Eigen::Vector4d moments =
-      integrals.variation + rate.cwiseQuotient(to_quantity) - integrals.gram * given;
-  return given + combination(integrals.gram, moments);
+Eigen::VectorXd Constraints::multipliers(const Eigen::MatrixXd& gram,
+                                         const Eigen::VectorXd& variation,
+                                         const Quantities& rate) const {
+  Eigen::VectorXd m = Eigen::VectorXd::Zero(gram.rows()), b = variation;
+  Eigen::VectorXi held(gram.rows());
+  Eigen::Index count = 0;
+  for (int i = 0; i < gram.rows(); i++) {
+    if (i >= 3 || held_[i])
+      held[count++] = i;
+    else
+      m[i] = given_[i];
+    if (i < 3) b[i] += rate[i] / to_quantity[i];
+  }
+  held.conservativeResize(count);
+  const Eigen::VectorXd left = b - gram * m;
+  m(held) = solve_scaled(gram(held, held), left(held));
+  return m;
 }
 
 bool Constraints::is_delicate(const SurfaceIntegrals& integrals) const {

@@ -60,9 +60,11 @@ public:
   /// Longest step that follows the ramps, and does not pass over the beginning or end of one.
   double longest_step(double time) const;
 
-  /// The multipliers for which the velocity -F + P + sigma K_M + 2 h sigma_DA K changes the held
-  /// quantities at their rates.
-  Multipliers multipliers(const SurfaceIntegrals& integrals, const Quantities& rate) const;
+  /// The multipliers for which the velocity -F + sum_i m_i g_i changes the held quantities at their
+  /// rates: g = 1, K_M, K, and one function for each area in Ld and Lo that is held, its rate 0.
+  /// `gram`: int g_i g_j dA, `variation`: int g_i F dA.
+  Eigen::VectorXd multipliers(const Eigen::MatrixXd& gram, const Eigen::VectorXd& variation,
+                              const Quantities& rate) const;
 
   /// Factors of the held quantities' directions that bring about a change; `effect` has a column of
   /// changes for each direction.

@@ -25,23 +25,12 @@ constexpr double foot_reach = 8;
 constexpr double far_pull = 0.1;     // towards the distance where it does not matter much, a step
 constexpr double inconsistent = 1.5; // distance from psi: the foot is not that of this boundary
 
-/// The node next to point i, within the box.
-std::size_t node_at(const Grid& grid, ConstPoints points, std::size_t i) {
-  const double x[3] = {points.x[i], points.y[i], points.z[i]};
-  int at[3];
-  for (int d = 0; d < 3; d++)
-    at[d] =
-        std::clamp(int(std::lround((x[d] - grid.origin(d)) / grid.spacing)), 0, grid.nodes[d] - 1);
-  return grid.index(at[0], at[1], at[2]);
-}
-
 Vector3d vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 } // namespace
 
 PhaseIntegrals& PhaseIntegrals::operator+=(const PhaseIntegrals& o) {
   gram += o.gram;
-  variation += o.variation;
   area_Ld += o.area_Ld;
   length += o.length;
   bending_Ld += o.bending_Ld;
@@ -57,8 +46,8 @@ Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier
       line_(scene.line), sharp_line_{0, 0, scene.line.torsion_modulus, scene.line.normal_modulus},
       accurate_(SmearedStep::accurate(line_width * h_)),
       monotonic_(SmearedStep::monotonic(modulus_width * h_)),
-      of_moments_(SmearedStep::of_moments(moment_width * h_)), fit_(scene.grid(), fourier),
-      psi_(scene.grid()), current_(moduli(0)) {
+      of_moments_(SmearedStep::of_moments(moment_width * h_)), held_(scene.stretch.modulus > 0, h_),
+      fit_(scene.grid(), fourier), psi_(scene.grid()), current_(moduli(0)) {
   std::vector<double> nodal(psi.size());
   for (std::size_t i = 0; i < psi.size(); i++) nodal[i] = saturated(psi[i]);
   std::ranges::copy(nodal, psi_.coefficients().begin());
@@ -89,7 +78,9 @@ void Phases::locate(const LevelSet& phi, const NarrowBand& band) {
   psi_.update_nodal();
   boundary_.trace(phi, psi_, band);
   feet_.find(boundary_, phi, band, foot_reach * h_);
-  domains_ = domains_of(band, psi_.nodal());
+  DomainMap map = domains_of(band, psi_.nodal());
+  held_.find(band, map, boundary_);
+  domains_ = std::move(map.domains);
   restore_distance(band);
 }
 
@@ -116,7 +107,8 @@ void Phases::restore_distance(const NarrowBand& band) {
         if (std::abs(psi) < follow_until * h_ && std::abs(off) > inconsistent * h_) continue;
         c = (near + far_pull * (1 - near)) * off;
       } else {
-        const double there = psi_.nodal()[node_at(grid, band.points(), i)];
+        const ConstPoints p = band.points();
+        const double there = psi_.nodal()[grid.nearest({p.x[i], p.y[i], p.z[i]})];
         c = far_pull * (std::copysign(top, there) - psi);
       }
       c *= band.taper()[i];
@@ -180,6 +172,10 @@ void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface) {
     strip_.push_back(s);
     points.push_back(vec(surface.point(i)));
   }
+  std::vector<int> boundary_point(n, -1);
+  for (const StripPoint& s : strip_)
+    if (s.foot.exists()) boundary_point[s.sample] = s.foot.at;
+  held_.sample(band.grid(), surface, boundary_point);
   const std::vector<Taylor> psi = taylor(psi_, points);
   parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; m++) {
@@ -331,7 +327,6 @@ PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface,
           sum.int_K_Ld += w * moment_share_[i] * K;
           sum.int_K += w * K;
           if (variation.empty()) continue;
-          sum.variation += w * q * KM * variation[i];
           const double off = KM - C_[i], density = 0.5 * kappa_[i] * off * off;
           sum.bending_Ld += w * q * density;
           sum.bending_Lo += w * (1 - q) * density;
@@ -376,12 +371,6 @@ LineTerms Phases::line_terms(const PhaseIntegrals& i) const {
   return terms;
 }
 
-double Phases::line_integral_of_force() const {
-  double sum = 0;
-  for (std::size_t j = 0; j < force_.size(); j++) sum += boundary_.points()[j].weight * force_[j];
-  return sum;
-}
-
 double Phases::least_radius() const {
   double least = 0;
   for (std::size_t c = 0; c < boundary_.curves(); c++) {
@@ -397,20 +386,24 @@ double Phases::near_boundary(int node) const {
   return 0.5 * (1 + std::cos(std::numbers::pi * std::clamp(u, -1.0, 1.0)));
 }
 
-double Phases::max_line_speed(double multiplier) const {
+double Phases::max_line_speed() const {
   double most = 0;
-  for (const double f : force_) most = std::max(most, std::abs(f - multiplier));
+  for (std::size_t j = 0; j < force_.size(); j++)
+    most = std::max(most, std::abs(force_[j] - held_.jump()[j]));
   return most;
 }
 
-void Phases::extend_rates(const NarrowBand& band, double multiplier, Extension& extension) {
+void Phases::extend_rates(const NarrowBand& band, double dt, Extension& extension) {
+  std::vector<double> speed(force_.size());
+  for (std::size_t j = 0; j < speed.size(); j++)
+    speed[j] = force_[j] - held_.jump()[j] + held_.shift()[j] / dt;
   rates_.assign(band.size(), 0);
   weights_.assign(band.size(), 0);
   parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
       const BoundaryFeet::Foot& foot = feet_[i];
       if (!foot.exists()) continue;
-      rates_[i] = multiplier - foot.value(force_); // |grad_s psi| = 1
+      rates_[i] = -foot.value(speed); // |grad_s psi| = 1
       weights_[i] = band.taper()[i] * boundary_taper(foot.distance);
     }
   });

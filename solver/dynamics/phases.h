@@ -1,4 +1,5 @@
 #pragma once
+#include "dynamics/held_areas.h"
 #include "dynamics/measures.h"
 #include "dynamics/stretch_field.h"
 #include "energy/helfrich.h"
@@ -23,7 +24,6 @@ namespace lamella {
 /// boundary.
 struct PhaseIntegrals {
   Eigen::Vector4d gram = Eigen::Vector4d::Zero(); ///< int q K_M (1, K_M, K, q K_M) dA
-  double variation = 0;                           ///< int q K_M F dA
   double area_Ld = 0, length = 0;
   double bending_Ld = 0, bending_Lo = 0, int_K = 0, int_K_Ld = 0;
 
@@ -61,8 +61,14 @@ public:
   double line_energy(const PhaseIntegrals& integrals) const { return line_terms(integrals).sum(); }
   double gaussian_energy(const PhaseIntegrals& integrals) const;
 
-  /// oint g.n dl: what the boundary's own force does to the area of Ld.
-  double line_integral_of_force() const;
+  /// The areas that are held. sample() brings them up to date, find_forces() and add_flow() what
+  /// integrate_held() needs.
+  HeldAreas& held() { return held_; }
+  const HeldAreas& held() const { return held_; }
+  HeldAreas::Integrals integrate_held(const SurfaceGeometry& surface,
+                                      std::span<const double> variation) const {
+    return held_.integrate(surface, share_, variation, boundary_, force_);
+  }
 
   /// First-order change of the area of Ld where psi changes by so much at the samples.
   double change_of_area(std::span<const double> psi, const SurfaceGeometry& surface) const;
@@ -74,9 +80,9 @@ public:
   /// delta(psi) |grad_s psi| at the samples: int f delta dA = oint f dl.
   std::span<const double> delta() const { return delta_; }
 
-  /// Rates of psi at which the boundary moves with its force less `multiplier`, carried into the
-  /// box.
-  void extend_rates(const NarrowBand& band, double multiplier, Extension& extension);
+  /// Rates of psi at which the boundary moves in a step, with its force less the jump of tension,
+  /// carried into the box.
+  void extend_rates(const NarrowBand& band, double dt, Extension& extension);
 
   /// As of the last locate().
   const std::vector<Domain>& domains() const { return domains_; }
@@ -90,7 +96,7 @@ public:
   const PhaseBoundary& boundary() const { return boundary_; }
   const BoundaryFeet& feet() const { return feet_; }
   std::span<const double> force() const { return force_; }
-  double max_line_speed(double multiplier) const;
+  double max_line_speed() const;
   const Line& line() const { return line_; }
   /// Spontaneous curvatures are 0 before.
   double curvature_start_time() const { return curvature_start_time_; }
@@ -124,6 +130,7 @@ private:
   Line line_;
   LineEnergy sharp_line_; // what is not smeared by itself
   SmearedStep accurate_, monotonic_, of_moments_;
+  HeldAreas held_;
   SmoothFit fit_;
   LevelSet psi_;
   PhaseBoundary boundary_;

@@ -221,15 +221,14 @@ int Simulation::second_response() const {
 }
 
 ImplicitSymbol Simulation::implicit_symbol() const {
-  const Multipliers& m = vesicle_.multipliers();
-  const double tension = std::max(m[1], m[1] + m[3]) + vesicle_.curvature_tension();
+  const double tension = vesicle_.greatest_tension() + vesicle_.curvature_tension();
   const double line = vesicle_.phases() ? vesicle_.phases()->line().tension : 0;
   return {vesicle_.stiffness(), std::max(0.0, tension) + line};
 }
 
 void Simulation::predict_boundary(double dt) {
   Phases& phases = *vesicle_.phases();
-  phases.extend_rates(vesicle_.band(), vesicle_.multipliers()[3], vesicle_.extension());
+  phases.extend_rates(vesicle_.band(), dt, vesicle_.extension());
   psi_stepper_->predict(vesicle_.extension(), dt, {0, phases.line().tension});
 }
 

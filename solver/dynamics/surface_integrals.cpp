@@ -31,7 +31,7 @@ SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bendi
           sum.energy += w * bending.density(KM);
         }
         sum.gram.topLeftCorner<3, 3>() << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
-        sum.variation << f[0], f[1], f[2], 0;
+        sum.variation << f[0], f[1], f[2];
         return sum;
       });
 }

@@ -11,7 +11,7 @@ namespace lamella {
 /// phases the last is left 0.
 struct SurfaceIntegrals {
   Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();      ///< int g_i g_j dA, g = (1, K_M, K, q K_M)
-  Eigen::Vector4d variation = Eigen::Vector4d::Zero(); ///< int g_i F dA, F the energy's variation
+  Eigen::Vector3d variation = Eigen::Vector3d::Zero(); ///< int g_i F dA, F the energy's variation
   double volume = 0;                                   ///< 1/3 int p.N dA
   double energy = 0;                                   ///< bending energy
   double area_Ld = 0;                                  ///< of the Ld phase

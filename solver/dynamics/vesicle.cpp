@@ -292,8 +292,6 @@ void Vesicle::integrate_all(bool with_forces) {
   integrals_.gram.col(with_boundary) = p.gram;
   if (!with_forces) return;
   integrals_.energy = p.bending_Ld + p.bending_Lo;
-  integrals_.gram(with_boundary, with_boundary) += p.length;
-  integrals_.variation[with_boundary] = p.variation + phases_->line_integral_of_force();
 }
 
 void Vesicle::measure_forces(double time) {
@@ -318,10 +316,33 @@ void Vesicle::measure_forces(double time) {
   }
   if (film_.exists()) push_films_apart();
   integrate_all(true);
-  multipliers_ = constraints_.multipliers(integrals_, constraints_.rate(time));
+  find_multipliers(time);
   max_speed_ = 0;
   for (std::size_t i = 0; i < surface_.size(); i++)
     max_speed_ = std::max(max_speed_, std::abs(velocity(i)));
+}
+
+/// With phases a tension more for each area that is held; what the phases differ by, they do so in
+/// the mean.
+void Vesicle::find_multipliers(double time) {
+  const Quantities rate = constraints_.rate(time);
+  const Eigen::Index n = phases_ ? Eigen::Index(phases_->held().size()) : 0;
+  Eigen::MatrixXd gram(3 + n, 3 + n);
+  Eigen::VectorXd variation(3 + n);
+  gram.topLeftCorner(3, 3) = integrals_.gram.topLeftCorner<3, 3>();
+  variation.head(3) = integrals_.variation;
+  if (!phases_) {
+    multipliers_.head(3) = constraints_.multipliers(gram, variation, rate);
+    return;
+  }
+  const HeldAreas::Integrals held = phases_->integrate_held(surface_, variation_);
+  gram.bottomLeftCorner(n, 3) = held.with_surface;
+  gram.topRightCorner(3, n) = held.with_surface.transpose();
+  gram.bottomRightCorner(n, n) = held.gram;
+  variation.tail(n) = held.variation;
+  const Eigen::VectorXd m = constraints_.multipliers(gram, variation, rate);
+  phases_->held().set_tensions(m.tail(n), held, phases_->share(), integrals_.area());
+  multipliers_ << m.head(3), phases_->held().mean_Ld() - phases_->held().mean_Lo();
 }
 
 /// Adds the disjoining pressure to the variation.
@@ -338,15 +359,17 @@ void Vesicle::push_films_apart() {
 double Vesicle::velocity(std::size_t i) const {
   return -variation_[i] + multipliers_[0] + multipliers_[1] * surface_.KM()[i] +
          multipliers_[2] * surface_.K()[i] +
-         (phases_ ? multipliers_[3] * phases_->share()[i] * surface_.KM()[i] : 0);
+         (phases_ ? phases_->held().tension()[i] * surface_.KM()[i] : 0);
 }
 
-double Vesicle::max_line_speed() const {
-  return phases_ ? phases_->max_line_speed(multipliers_[with_boundary]) : 0;
-}
+double Vesicle::max_line_speed() const { return phases_ ? phases_->max_line_speed() : 0; }
 
 double Vesicle::stiffness() const {
   return phases_ ? phases_->stiffest() : bending_.bending_modulus;
+}
+
+double Vesicle::greatest_tension() const {
+  return multipliers_[1] + (phases_ ? phases_->held().greatest() : 0);
 }
 
 double Vesicle::curvature_tension() const {
@@ -412,8 +435,8 @@ Measures Vesicle::measures(double time) const {
     p.gaussian_energy = phases_->gaussian_energy(i);
     p.line_terms = phases_->line_terms(i);
     p.line_energy = p.line_terms.sum();
-    p.sigma_Ld = multipliers_[1] + multipliers_[3];
-    p.sigma_Lo = multipliers_[1];
+    p.sigma_Ld = multipliers_[1] + phases_->held().mean_Ld();
+    p.sigma_Lo = multipliers_[1] + phases_->held().mean_Lo();
     p.area_Ld = integrals_.area_Ld;
     p.area_Lo = A - integrals_.area_Ld;
     p.area_Ld_drift = integrals_.area_Ld / constraints_.target(time)[3] - 1;

@@ -73,6 +73,8 @@ public:
   const Constraints& constraints() const { return constraints_; }
   /// The largest bending modulus.
   double stiffness() const;
+  /// The largest tension of a phase or a domain.
+  double greatest_tension() const;
   /// Bound of kappa/2 C^2.
   double curvature_tension() const;
   /// Where the scene has domains.
@@ -113,6 +115,7 @@ private:
   void set_quantities(const Quantities& q);
   void integrate_all(bool with_forces);
   void measure_forces(double time);
+  void find_multipliers(double time);
   void push_films_apart();
 
   Helfrich bending_;

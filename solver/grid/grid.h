@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -33,6 +35,13 @@ struct Grid {
   Vec3 position(std::size_t index) const {
     const int i = int(index % nx()), j = int(index / nx() % ny()), k = int(index / nx() / ny());
     return {coordinate(0, i), coordinate(1, j), coordinate(2, k)};
+  }
+  /// The node next to a point; on a side of the box for points beyond it.
+  std::size_t nearest(const Vec3& point) const {
+    int at[3];
+    for (int d = 0; d < 3; d++)
+      at[d] = std::clamp(int(std::lround((point[d] - origin(d)) / spacing)), 0, nodes[d] - 1);
+    return index(at[0], at[1], at[2]);
   }
 
   bool operator==(const Grid&) const = default;

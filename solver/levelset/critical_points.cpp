@@ -85,7 +85,7 @@ std::vector<int> candidates(const LevelSet& phi, const NarrowBand& band,
 struct Search {
   int node;
   Eigen::Vector3d start, x;
-  Taylor at{};
+  Taylor at{0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
 };
 
 /// The searches that end at a critical point near their node, in order.

@@ -4,19 +4,20 @@
 
 namespace lamella {
 
-std::vector<Domain> domains_of(const NarrowBand& band, std::span<const double> psi) {
+DomainMap domains_of(const NarrowBand& band, std::span<const double> psi) {
   const Grid& grid = band.grid();
   const double h = grid.spacing, area_of_node = 0.5 * h * h; // about two nodes a squared spacing
-  std::vector<char> seen(band.size(), 0);
   auto near = [&](int slot) { return slot >= 0 && std::abs(band.distance()[slot]) < h; };
-  std::vector<Domain> domains;
+  DomainMap map{{}, std::vector<int>(band.size(), -1)};
+  std::vector<int>& of = map.of_entry;
   std::vector<int> front;
   for (std::size_t s = 0; s < band.size(); s++) {
-    if (seen[s] || !near(int(s))) continue;
+    if (of[s] >= 0 || !near(int(s))) continue;
     Domain domain{psi[band.node()[s]] < 0, {}, 0};
     double count = 0;
     front = {int(s)};
-    seen[s] = 1;
+    const int index = int(map.domains.size());
+    of[s] = index;
     while (!front.empty()) {
       const int at = front.back();
       front.pop_back();
@@ -25,16 +26,16 @@ std::vector<Domain> domains_of(const NarrowBand& band, std::span<const double> p
       count++;
       for_each_neighbour(grid, band.node()[at], [&](int node) {
         const int slot = band.slot(node);
-        if (!near(slot) || seen[slot] || (psi[node] < 0) != domain.is_Ld) return;
-        seen[slot] = 1;
+        if (!near(slot) || of[slot] >= 0 || (psi[node] < 0) != domain.is_Ld) return;
+        of[slot] = index;
         front.push_back(slot);
       });
     }
     for (double& c : domain.center) c /= count;
     domain.area = count * area_of_node;
-    domains.push_back(domain);
+    map.domains.push_back(domain);
   }
-  return domains;
+  return map;
 }
 
 } // namespace lamella

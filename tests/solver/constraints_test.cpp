@@ -36,7 +36,8 @@ TEST(Multipliers, GiveTheRatesAskedFor) {
       for (const double factor : {0., 1.}) {
         const Constraints constraints(scene_with(volume, difference));
         const Quantities rate = factor * asked;
-        const Multipliers m = constraints.multipliers(integrals, rate);
+        const Eigen::VectorXd m = constraints.multipliers(integrals.gram.topLeftCorner<3, 3>(),
+                                                          integrals.variation, rate);
         Quantities found = Quantities::Zero();
         double scale = 0; // int |v| dA
         for (std::size_t i = 0; i < g.size(); i++) {

@@ -226,22 +226,22 @@ TEST(Domains, CoarsenWhereLipidFlowsFreely) {
   expect_held(run.history);
 }
 
-// The boundary slips against the lipid, so that mu hinders coarsening but does not stop it.
-// Measured: the short domain, gone at 9.1e-4 where mu = 0, still has 69 % of its area at 1e-3; c
-// goes down to .948.
-TEST(Domains, CoarsenMoreSlowlyWhereTheMembraneHardlyStretches) {
+// Lipid that hardly stretches cannot get from one domain into another. Measured: the long domain
+// +.07 %, the short one -.8 % (this quadrature is another); where mu = 0 +31 % and -54 %.
+TEST(Domains, KeepTheirAreasWhereTheMembraneHardlyStretches) {
   Scene scene = unequal_caps();
+  scene.domains.half_angle = 18; // what keeps its area needs a rim that the grid resolves
   scene.stretch.modulus = 1000;
   const Sides before = sides(Simulation(scene).frame());
   const Outcome run = follow(scene);
   const Sides after = sides(run.end);
   EXPECT_EQ(run.history.back().phases->domains_Ld, 2);
-  EXPECT_GT(after.below / before.below, 0.6);
-  EXPECT_NEAR(after.above + after.below, before.above + before.below, 2e-3); // 3e-5
-  EXPECT_NEAR(after.lipid / before.lipid, 1, 6e-4); // measured 2.6e-4, by another quadrature
+  EXPECT_NEAR(after.above / before.above, 1, 0.005);
+  EXPECT_NEAR(after.below / before.below, 1, 0.02);
+  EXPECT_NEAR(after.lipid / before.lipid, 1, 6e-4); // measured 3e-4, by another quadrature
   for (const Measures& m : run.history) {
-    EXPECT_GT(m.stretch->least, 0.94);
-    EXPECT_LT(m.stretch->greatest, 1.03);
+    EXPECT_GT(m.stretch->least, 0.95); // .977 .. 1.003
+    EXPECT_LT(m.stretch->greatest, 1.05);
   }
   expect_held(run.history);
 }
