@@ -21,6 +21,17 @@ std::string at_line(const std::string& source, std::size_t line) {
   return fmt::format("{}:{}: ", source, line);
 }
 
+/// The dot of a number such as -1.25e3; a dot of a key 1.25.3 is not taken for one.
+bool is_decimal_point(std::string_view text, std::size_t dot) {
+  auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
+  std::size_t begin = dot, end = dot + 1;
+  while (begin > 0 && is_digit(begin - 1)) begin--;
+  while (end < text.size() && is_digit(end)) end++;
+  constexpr std::string_view before = "=[,+- \t", after = ",]}eE \t\r\n";
+  return begin < dot && begin > 0 && before.find(text[begin - 1]) != before.npos &&
+         (end == text.size() || after.find(text[end]) != after.npos);
+}
+
 /// Refuse what the parser is not to see: it recurses once for every level of nesting.
 void refuse_rubbish(std::string_view text, const std::string& source) {
   if (text.size() > largest_text)
@@ -28,7 +39,8 @@ void refuse_rubbish(std::string_view text, const std::string& source) {
   std::size_t line = 1;
   bool is_blank = true, is_comment = false;
   int dots = 0;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); i++) {
+    const char c = text[i];
     if (c == '\0') refuse_scene(at_line(source, line) + "not a text; allowed: a scene in TOML");
     if (c == '\n') {
       ++line;
@@ -37,7 +49,7 @@ void refuse_rubbish(std::string_view text, const std::string& source) {
     }
     if (is_blank && c == '#') is_comment = true;
     is_blank = is_blank && (c == ' ' || c == '\t');
-    if (c == '.' && !is_comment && ++dots > most_dots_in_a_line)
+    if (c == '.' && !is_comment && !is_decimal_point(text, i) && ++dots > most_dots_in_a_line)
       refuse_scene(at_line(source, line) +
                    "nested too deeply; allowed: sections that hold plain keys");
   }

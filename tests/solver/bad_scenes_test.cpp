@@ -348,6 +348,8 @@ std::vector<BadScene> bad_scenes() {
        "bad.toml:", "nest"},
       {"DeepKeys", repeated("a.", 300000) + "a = 1\n", "bad.toml:1: nested too deeply",
        "plain keys"},
+      {"DeepKeysOfDigits", repeated("1.5 . 25.", 100000) + "a = 1\n",
+       "bad.toml:1: nested too deeply", "plain keys"},
       {"DeepSections", std::string("[") + repeated("a.", 300000) + "a]\n",
        "bad.toml:1: nested too deeply", "plain keys"},
 

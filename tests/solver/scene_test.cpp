@@ -163,7 +163,7 @@ modulus = 1000
 }
 
 TEST(Scene, IsTheSameAfterWritingAndReadingWithDomains) {
-  for (const char* name : {"fig9", "fig12_kl5_C-5", "fig13b", "fig15b", "baumgart_0.18"}) {
+  for (const char* name : {"fig9", "fig12_kl5_C-5", "fig13b", "fig14", "fig15b", "baumgart_0.18"}) {
     const Scene scene = builtin_scene(name);
     EXPECT_EQ(parse_scene(to_toml(scene), "other.toml"), scene) << to_toml(scene);
   }
