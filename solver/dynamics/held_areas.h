@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lamella {
@@ -58,12 +59,18 @@ public:
 
   std::size_t size() const { return parts_.size(); }
 
-private:
   struct Part {
     bool is_Ld = true;
     Vec3 center{};
     double target = 0; ///< area; 0: not known yet
+
+    bool operator==(const Part&) const = default;
   };
+  const std::vector<Part>& parts() const { return parts_; }
+  /// Goes on from stored parts.
+  void restore(std::vector<Part> parts) { parts_ = std::move(parts); }
+
+private:
   /// Indices of the parts at a place; -1: none.
   struct Sides {
     int ld = -1, lo = -1;

@@ -72,6 +72,7 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Ves
 Vesicle::State Vesicle::state() const {
   State state = origin_;
   state.constraints = constraints_.state();
+  if (phases_) state.held = phases_->held().parts();
   if (!stretch_) return state;
   const std::span<const double> c = stretch_->c().coefficients();
   state.c.assign(c.begin(), c.end());
@@ -85,6 +86,7 @@ Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& f
   if (scene.has_phases()) {
     phases_.emplace(scene, state.psi, fourier);
     std::ranges::copy(state.psi, phases_->psi().coefficients().begin());
+    phases_->held().restore(state.held);
   }
   if (scene.stretch.modulus > 0) {
     stretch_.emplace(scene.stretch.modulus, scene.grid(), state.c, fourier);
@@ -96,7 +98,6 @@ Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& f
 }
 
 void Vesicle::note_origin() {
-  if (getenv("NOREC")) return;
   const std::span<const double> phi = phi_.coefficients();
   origin_.phi.assign(phi.begin(), phi.end());
   band_.store(origin_.band);

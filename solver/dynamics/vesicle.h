@@ -27,8 +27,9 @@ public:
   /// All that the membrane is found from: what the last measurement began with. (What it found is
   /// many times as much, and comes out the same when it is made again.)
   struct State {
-    Array<double> phi, psi, c; ///< coefficients; psi and c empty where the scene has none
-    double lipid = 0;          ///< int c dA at the start
+    Array<double> phi, psi, c;         ///< coefficients; psi and c empty where the scene has none
+    double lipid = 0;                  ///< int c dA at the start
+    std::vector<HeldAreas::Part> held; ///< where the scene has phases
     NarrowBand::State band;
     Constraints::State constraints;
   };
