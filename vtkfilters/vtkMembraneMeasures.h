@@ -29,7 +29,7 @@
  * With psi there are also:
  * | column                 | meaning, unit |
  * |------------------------|---------------|
- * | A_Ld, A_Lo             | areas of the phases, right to second order in the spacing; length^2 |
+ * | A_Ld, A_Lo             | areas of the phases, right to about 1e-4; length^2 |
  * | bending_Ld, bending_Lo | bending energies of the phases; energy |
  * | line_length            | of the phase boundary; length |
  *

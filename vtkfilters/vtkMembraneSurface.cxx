@@ -6,6 +6,7 @@
 #include "fields/refine.h"
 #include "fields/report.h"
 #include "fields/spline_geometry.h"
+#include "fields/velocity.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
@@ -101,20 +102,16 @@ void AddEnergyDensity(
   }
 }
 
-/** Along the normal, Eq. 80. */
-void AddVelocity(vtkPolyData& mesh, const SplineGeometry& geometry, const Helfrich& bending,
-  const std::array<double, 3>& multipliers)
+/** Along the normal. */
+void AddVelocity(
+  vtkPolyData& mesh, const SplineGeometry& geometry, const std::vector<double>& speed)
 {
   double* velocity = AddArray(mesh, "velocity", 3);
-  const auto& [P, sigma, KMultiplier] = multipliers;
-  for (std::size_t n = 0; n < geometry.KM.size(); ++n)
+  for (std::size_t n = 0; n < speed.size(); ++n)
   {
-    const double KM = geometry.KM[n], K = geometry.K[n];
-    const double speed =
-      P + sigma * KM + KMultiplier * K - bending.variation(KM, K, geometry.lap_KM[n]);
     for (int axis = 0; axis < 3; ++axis)
     {
-      velocity[3 * n + axis] = speed * geometry.normals[3 * n + axis];
+      velocity[3 * n + axis] = speed[n] * geometry.normals[3 * n + axis];
     }
   }
 }
@@ -133,21 +130,22 @@ void AddNormals(vtkPolyData& mesh, const SplineGeometry& geometry)
 vtkSmartPointer<vtkPolyData> ExactSurface(
   const Frame& frame, int refinement, vtkDataObject& about, const Helfrich& otherwise)
 {
-  const auto multipliers = lamella::multipliers_of(about);
-  const bool moves = multipliers && frame.psi.empty();
+  const auto multipliers = lamella::multipliers_of(about, !frame.psi.empty());
   const LevelSet phi = lamella::fitted(frame.grid, frame.phi);
   const Frame fine = Refined(frame, refinement ? refinement : SuitableRefinement(frame, phi));
   const auto mesh = lamella::contour(fine);
-  const SplineGeometry geometry = lamella::move_onto(phi, *mesh->GetPoints(), moves);
+  const SplineGeometry geometry = lamella::move_onto(phi, *mesh->GetPoints(), multipliers.has_value());
   const lamella::Elasticity elasticity = lamella::elasticity_of(about, otherwise);
   AddNormals(*mesh, geometry);
   lamella::add_fields(*mesh, fine);
   std::copy(geometry.KM.begin(), geometry.KM.end(), AddArray(*mesh, "K_M"));
   std::copy(geometry.K.begin(), geometry.K.end(), AddArray(*mesh, "K"));
   AddEnergyDensity(*mesh, geometry, elasticity);
-  if (moves)
+  if (multipliers)
   {
-    AddVelocity(*mesh, geometry, elasticity.membrane, *multipliers);
+    AddVelocity(*mesh, geometry,
+      lamella::normal_velocity(frame, phi, lamella::forces_of(about, frame), *multipliers,
+        *mesh->GetPoints(), geometry));
   }
   return mesh;
 }

@@ -20,8 +20,9 @@
  *
  * Field data, optional, as vtkVesicleDynamics and the readers attach it: `membrane.bending_modulus`
  * (energy) and `membrane.spontaneous_curvature` (1 / length), with phases those of `ld.` and `lo.`,
- * which take precedence over the properties of these names; `P`, `sigma`, `K_multiplier`: the
- * multipliers of the state.
+ * which take precedence over the properties of these names; `P`, `sigma` (with phases `sigma_Ld` and
+ * `sigma_Lo`), `K_multiplier`: the multipliers of the state; with phases, local stretch or films what
+ * else they depend on: `ld.gaussian_modulus`, `line.tension`, `contact.disjoining_pressure`, ...
  *
  * Output: vtkPolyData, triangles. Point data:
  * | array          | type, components | meaning, unit |
@@ -30,13 +31,13 @@
  * | K_M            | double, 1        | sum of the principal curvatures, -2 on the unit sphere; 1 / length |
  * | K              | double, 1        | Gaussian curvature; 1 / length^2 |
  * | energy_density | double, 1        | bending_modulus / 2 (K_M - spontaneous_curvature)^2; energy / length^2 |
- * | velocity       | double, 3        | normal velocity; length / time; one phase, with `P`, `sigma`, `K_multiplier` |
+ * | velocity       | double, 3        | normal velocity; length / time; with the multipliers |
  * | psi            | double, 1        | where the input has it; then the scalars |
  * | phase          | unsigned char, 1 | 0 in Ld, 1 in Lo, where the input has psi |
  * | c              | double, 1        | where the input has it |
  *
- * Of forces on the membrane, `velocity` has bending and the constraints, not the disjoining pressure
- * of films.
+ * `velocity` is that of all forces of the state: bending, the phase boundary, local stretch, films and
+ * the constraints. Where there is more than bending it takes several times as long as the rest.
  *
  * T. Zhang, C. W. Wolgemuth, J. Comput. Phys. 450 (2022) 110815.
  *

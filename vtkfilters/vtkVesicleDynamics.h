@@ -35,8 +35,9 @@
  * | c     | double, 1        | with local stretch |
  *
  * The origin moves where the box followed the vesicle. Field data, one number each: the measures of
- * the state, named as the columns of output 1, and `membrane.bending_modulus`,
- * `membrane.spontaneous_curvature` (with phases those of `ld.` and `lo.`), for the filters to come.
+ * the state, named as the columns of output 1, and what the forces depend on, for the filters to come:
+ * `membrane.bending_modulus`, `membrane.spontaneous_curvature`; with phases those of `ld.`, `lo.` and
+ * `line.`; with local stretch and films those of `stretch.` and `contact.`.
  *
  * Output 1: vtkTable, the history until the time of output 0: a row for the start and every step of
  * the run, with the columns of history.csv (docs/command-line.md), all of them double. Steps beyond

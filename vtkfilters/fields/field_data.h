@@ -1,9 +1,11 @@
 #pragma once
 #include "energy/helfrich.h"
+#include "fields/velocity.h"
+#include "scene/scene.h"
+#include "store/frame.h"
 
 #include <vtkDataObject.h>
 
-#include <array>
 #include <optional>
 #include <string>
 
@@ -24,8 +26,13 @@ struct Elasticity {
 /// What the field data says; the given one where it says nothing.
 Elasticity elasticity_of(vtkDataObject& data, const Helfrich& otherwise);
 
-/// Multipliers of 1, K_M and K in the normal velocity; none where the field data does not have
-/// them.
-std::optional<std::array<double, 3>> multipliers_of(vtkDataObject& data);
+/// Writes the parameters of a scene that its forces depend on, those that act; and reads them
+/// again, into a scene that has the grid and phases of a frame.
+void set_forces(vtkDataObject& data, const Scene& scene);
+Scene forces_of(vtkDataObject& data, const Frame& frame);
+
+/// Multipliers in the normal velocity of a membrane; nothing where the field data does not have all
+/// of them.
+std::optional<KnownMultipliers> multipliers_of(vtkDataObject& data, bool has_phases);
 
 } // namespace lamella

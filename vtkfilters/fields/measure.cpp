@@ -1,6 +1,7 @@
 #include "fields/measure.h"
 
 #include "dynamics/surface_integrals.h"
+#include "energy/smeared_step.h"
 #include "fields/image.h"
 #include "fields/spline_geometry.h"
 #include "geometry/phase_boundary.h"
@@ -20,17 +21,18 @@ namespace {
 
 // Spacings. The solver's own band, and one in which necks are looked for.
 constexpr double band_half_width = 4.2, neck_band_half_width = 12;
+constexpr double step_half_width = 4; // of the boundary between phases
 // Of a neck: along it phi falls off to both sides, however little in proportion to across it.
 constexpr double least_narrowing = 0.01;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-struct Membrane {
+struct Sampled {
   LevelSet phi;
   NarrowBand band;
   SurfaceGeometry surface;
 
-  explicit Membrane(const Frame& frame)
+  explicit Sampled(const Frame& frame)
       : phi(fitted(frame.grid, frame.phi)), band(frame.grid, band_half_width) {
     band.update(phi);
     surface.sample(phi, band);
@@ -76,19 +78,23 @@ void set_multipliers(ShapeMeasures& m, const SurfaceIntegrals& integrals) {
   m.sigma = solution[1];
 }
 
-/// The part of a sample in Lo, from psi around it.
-double share_of_Lo(const Taylor& psi, double spacing) {
-  return std::clamp(0.5 + 0.5 * psi.value / (spacing * psi.gradient.norm() + 1e-300), 0.0, 1.0);
+/// The share of Lo at a sample: the solver's smeared step, over about the distance along the
+/// membrane. It may leave [0, 1]; sums over the membrane are right to the fourth order.
+double share_of_Lo(const SmearedStep& step, const Taylor& psi, const Vec3& normal) {
+  const Eigen::Vector3d N(normal[0], normal[1], normal[2]);
+  const double slope = (psi.gradient - psi.gradient.dot(N) * N).norm();
+  return step.at(psi.value / (slope + 1e-300)).step;
 }
 
-ShapeMeasures::Phases measure_phases(const Frame& frame, const Membrane& membrane,
+ShapeMeasures::Phases measure_phases(const Frame& frame, const Sampled& membrane,
                                      const Elasticity& elasticity) {
   const LevelSet psi = fitted(frame.grid, frame.psi);
   const SurfaceGeometry& surface = membrane.surface;
   const std::vector<Taylor> around = taylor(psi, places(surface.points(), surface.size()));
+  const auto step = SmearedStep::accurate(step_half_width * frame.grid.spacing);
   ShapeMeasures::Phases m;
   for (std::size_t i = 0; i < surface.size(); ++i) {
-    const double Lo = share_of_Lo(around[i], frame.grid.spacing), w = surface.weight()[i],
+    const double Lo = share_of_Lo(step, around[i], surface.normal(i)), w = surface.weight()[i],
                  KM = surface.KM()[i];
     m.area_Ld += w * (1 - Lo);
     m.area_Lo += w * Lo;
@@ -104,12 +110,12 @@ ShapeMeasures::Phases measure_phases(const Frame& frame, const Membrane& membran
 } // namespace
 
 Size size_of(const Frame& frame) {
-  const SurfaceIntegrals integrals = integrate(Membrane(frame).surface, {}, {});
+  const SurfaceIntegrals integrals = integrate(Sampled(frame).surface, {}, {});
   return {integrals.area(), integrals.volume};
 }
 
 ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity) {
-  const Membrane membrane(frame);
+  const Sampled membrane(frame);
   const SurfaceGeometry& surface = membrane.surface;
   const SurfaceIntegrals integrals =
       integrate(surface, elasticity.membrane, variation(surface, elasticity.membrane));

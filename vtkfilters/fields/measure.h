@@ -6,8 +6,8 @@
 
 namespace lamella {
 
-/// What the geometry of a membrane and its bending energy tell. Of two phases, those parts that the
-/// boundary between them cuts count in proportion; sums over a phase are right to second order.
+/// What the geometry of a membrane and its bending energy tell. The share of a phase
+/// changes smoothly across the boundary.
 struct ShapeMeasures {
   double area = 0, volume = 0;
   double reduced_volume = 0, area_difference = 0;

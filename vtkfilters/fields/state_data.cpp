@@ -52,12 +52,6 @@ void fill_table(vtkTable& table, std::span<const Record> records, double until, 
   }
 }
 
-void add_elasticity(vtkImageData& image, const std::string& section, double bending_modulus,
-                    double spontaneous_curvature) {
-  set_field_value(image, section + ".bending_modulus", bending_modulus);
-  set_field_value(image, section + ".spontaneous_curvature", spontaneous_curvature);
-}
-
 } // namespace
 
 void fill_state(vtkImageData& image, const Frame& frame, const Measures& measures,
@@ -66,11 +60,7 @@ void fill_state(vtkImageData& image, const Frame& frame, const Measures& measure
   Measures copy = measures;
   for (const Field& field : row_of(copy))
     set_field_value(image, std::string(field.column), number_in(field));
-  if (!scene.has_phases())
-    return add_elasticity(image, "membrane", scene.membrane.bending_modulus,
-                          scene.membrane.spontaneous_curvature);
-  add_elasticity(image, "ld", scene.ld.bending_modulus, scene.ld.spontaneous_curvature);
-  add_elasticity(image, "lo", scene.lo.bending_modulus, scene.lo.spontaneous_curvature);
+  set_forces(image, scene);
 }
 
 void fill_history(vtkTable& table, std::span<const Measures> history, double until) {
