@@ -6,6 +6,7 @@
 #include "scene/keys.h"
 #include "scene/nearest.h"
 #include "usage_error.h"
+#include "version.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -267,7 +268,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version",
                        fmt::format("lamella {} ({} kernels)\nBSD-3-Clause; this program links FFTW "
                                    "and is therefore distributed under the GPL.",
-                                   LAMELLA_VERSION, kernels().name));
+                                   version(), kernels().name));
   app.require_subcommand(1);
   RunOptions run_options;
   RenderCommandOptions render_options;

@@ -58,20 +58,6 @@ std::vector<std::pair<std::string_view, std::optional<double>*>> optional_terms(
   return terms;
 }
 
-/// Measures with the columns that a file has.
-Measures measures_in(const std::filesystem::path& file) {
-  const std::vector<std::string> columns = read_columns(file);
-  const auto has = [&](std::string_view column) {
-    return std::ranges::find(columns, column) != columns.end();
-  };
-  Measures measures;
-  if (has("A_Ld")) measures.phases.emplace();
-  if (has("c_min")) measures.stretch.emplace();
-  for (const auto& [column, term] : optional_terms(measures))
-    if (has(column)) term->emplace();
-  return measures;
-}
-
 std::string json_text(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -86,6 +72,18 @@ std::string json_text(std::string_view text) {
 }
 
 } // namespace
+
+Measures measures_with(std::span<const std::string> columns) {
+  const auto has = [&](std::string_view column) {
+    return std::ranges::find(columns, column) != columns.end();
+  };
+  Measures measures;
+  if (has("A_Ld")) measures.phases.emplace();
+  if (has("c_min")) measures.stretch.emplace();
+  for (const auto& [column, term] : optional_terms(measures))
+    if (has(column)) term->emplace();
+  return measures;
+}
 
 Row row_of(Measures& m) {
   Row row{{"t", &m.time},
@@ -135,7 +133,7 @@ Row row_of(Event& e) {
 }
 
 std::vector<Measures> read_history(const std::filesystem::path& file) {
-  return read_records(file, "history", measures_in(file));
+  return read_records(file, "history", measures_with(read_columns(file)));
 }
 
 std::vector<Event> read_events(const std::filesystem::path& file) {

@@ -15,6 +15,9 @@ namespace lamella {
 Row row_of(Measures& measures);
 Row row_of(Event& event);
 
+/// Measures that have these columns.
+Measures measures_with(std::span<const std::string> columns);
+
 /// A table that grows by records. Both functions throw StoreError, see TableWriter.
 template <class Record>
 class RecordWriter {

@@ -1,0 +1,181 @@
+#include "store/h5_image.h"
+
+#include "error.h"
+#include "store/atomic_file.h"
+#include "store/posix_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace lamella {
+
+namespace {
+
+constexpr const char* in_memory = "file in memory";
+constexpr std::size_t longest_text = 1 << 16;
+constexpr std::uintmax_t largest_file = std::uintmax_t(1) << 36;
+
+constexpr std::string_view trailer_mark = "lamella frame, FNV-1a ";
+constexpr std::size_t trailer_size = trailer_mark.size() + 16 + 1;
+
+/// FNV-1a over 64 bits.
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::byte b : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(b)) * 0x100000001b3;
+  return hash;
+}
+
+std::string trailer(std::span<const std::byte> image) {
+  return fmt::format("{}{:016x}\n", trailer_mark, checksum(image));
+}
+
+/// The bytes of an HDF5 file.
+std::vector<std::byte> compose(std::size_t size, const std::function<void(hid_t)>& fill) {
+  const H5Session session;
+  const H5Handle access = owned(H5Pcreate(H5P_FILE_ACCESS));
+  const std::size_t growth = std::max<std::size_t>(1 << 16, size / 4);
+  required(H5Pset_fapl_core(access, growth, false));
+  const H5Handle creator = creation(H5P_FILE_CREATE);
+  const H5Handle file = owned(H5Fcreate(in_memory, H5F_ACC_TRUNC, creator, access));
+  fill(file);
+  required(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  std::vector<std::byte> image(
+      static_cast<std::size_t>(required(H5Fget_file_image(file, nullptr, 0))));
+  required(H5Fget_file_image(file, image.data(), image.size()));
+  return image;
+}
+
+/// The content of a file without its trailer, which must fit.
+std::vector<std::byte> verified(const std::filesystem::path& file, std::string_view what) {
+  const auto refuse = [&](std::string_view why) {
+    throw StoreError(fmt::format("{}: cannot be read as a {}: {}", file.string(), what, why));
+  };
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error)
+    throw StoreError(fmt::format("{}: cannot be read: {}", file.string(), error.message()));
+  if (size <= trailer_size || size > largest_file) refuse("its size is out of range");
+  std::ifstream stream(file, std::ios::binary);
+  const auto read = [&](auto& bytes, std::uintmax_t from) {
+    stream.seekg(static_cast<std::streamoff>(from));
+    if (!stream.read(reinterpret_cast<char*>(bytes.data()),
+                     static_cast<std::streamsize>(bytes.size())))
+      throw_system_error(file, "read");
+  };
+  std::string end(trailer_size, ' ');
+  read(end, size - trailer_size); // before anything is allocated
+  if (!end.starts_with(trailer_mark)) refuse("it is not one, or it is cut off");
+  std::vector<std::byte> bytes(size - trailer_size);
+  read(bytes, 0);
+  if (end != trailer(bytes)) refuse("it is damaged (the checksum does not fit)");
+  return bytes;
+}
+
+} // namespace
+
+H5Handle creation(hid_t of_class) {
+  H5Handle properties = owned(H5Pcreate(of_class));
+  required(H5Pset_obj_track_times(properties, false));
+  return properties;
+}
+
+H5Handle create_group(hid_t parent, const char* name) {
+  const H5Handle properties = creation(H5P_GROUP_CREATE);
+  return owned(H5Gcreate2(parent, name, H5P_DEFAULT, properties, H5P_DEFAULT));
+}
+
+void write_attribute(hid_t object, const char* name, hid_t file_type, hid_t memory_type,
+                     hsize_t count, const void* values) {
+  const H5Handle space = owned(H5Screate_simple(1, &count, nullptr));
+  const H5Handle attribute =
+      owned(H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT));
+  required(H5Awrite(attribute, memory_type, values));
+}
+
+void write_attribute(hid_t object, const char* name, std::string_view value) {
+  const H5Handle type = owned(H5Tcopy(H5T_C_S1));
+  required(H5Tset_size(type, value.size()));
+  required(H5Tset_strpad(type, H5T_STR_NULLPAD));
+  const H5Handle space = owned(H5Screate(H5S_SCALAR));
+  const H5Handle attribute = owned(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
+  required(H5Awrite(attribute, type, value.data()));
+}
+
+void write_h5(const std::filesystem::path& file, std::size_t size,
+              const std::function<void(hid_t root)>& fill) {
+  std::vector<std::byte> image;
+  try {
+    image = compose(size, fill);
+  } catch (const H5Failure&) {
+    throw StoreError(fmt::format("{}: not written: HDF5 ran out of memory", file.string()));
+  }
+  const std::string end = trailer(image);
+  const auto end_bytes = std::as_bytes(std::span(end));
+  image.insert(image.end(), end_bytes.begin(), end_bytes.end());
+  write_atomically(file, image);
+}
+
+H5Image::H5Image(const std::filesystem::path& file, std::string_view what)
+    : path_(file), what_(what), file_([&] {
+        const std::vector<std::byte> bytes = verified(file, what);
+        size_ = bytes.size();
+        return open(bytes);
+      }()) {}
+
+H5Handle H5Image::open(std::span<const std::byte> bytes) const {
+  const H5Handle access = required(H5Pcreate(H5P_FILE_ACCESS), "no memory");
+  if (H5Pset_fapl_core(access, 1 << 16, false) < 0 ||
+      H5Pset_file_image(access, const_cast<std::byte*>(bytes.data()), bytes.size()) < 0)
+    refuse("no memory");
+  return required(H5Fopen(in_memory, H5F_ACC_RDONLY, access), "not an HDF5 file");
+}
+
+void H5Image::refuse(std::string_view why) const {
+  throw StoreError(fmt::format("{}: cannot be read as a {}: {}", path_.string(), what_, why));
+}
+
+H5Handle H5Image::required(hid_t id, std::string_view why) const {
+  if (id < 0) refuse(why);
+  return H5Handle(id);
+}
+
+bool H5Image::has(hid_t parent, const char* name) const {
+  return H5Lexists(parent, name, H5P_DEFAULT) > 0;
+}
+
+H5Handle H5Image::group(hid_t parent, const char* name) const {
+  return required(H5Gopen2(parent, name, H5P_DEFAULT), fmt::format("no group {}", name));
+}
+
+std::string H5Image::text_attribute(hid_t object, const char* name) const {
+  const std::string trouble = fmt::format("attribute {} is missing or no text", name);
+  const H5Handle attribute = required(H5Aopen(object, name, H5P_DEFAULT), trouble);
+  const H5Handle type = required(H5Aget_type(attribute), trouble);
+  const H5Handle space = required(H5Aget_space(attribute), trouble);
+  const std::size_t size = H5Tget_size(type);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size > longest_text ||
+      H5Sget_simple_extent_npoints(space) != 1)
+    refuse(trouble);
+  std::string text(size, ' ');
+  if (H5Aread(attribute, type, text.data()) < 0) refuse(trouble);
+  return text;
+}
+
+void H5Image::read_attribute(hid_t object, const char* name, bool real, std::size_t count,
+                             void* values) const {
+  const std::string trouble = fmt::format("attribute {} is missing or of the wrong type", name);
+  const H5Handle attribute = required(H5Aopen(object, name, H5P_DEFAULT), trouble);
+  const H5Handle type = required(H5Aget_type(attribute), trouble);
+  const H5Handle space = required(H5Aget_space(attribute), trouble);
+  if (H5Tget_class(type) != (real ? H5T_FLOAT : H5T_INTEGER) ||
+      H5Sget_simple_extent_npoints(space) != hssize_t(count) ||
+      H5Aread(attribute, real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT, values) < 0)
+    refuse(trouble);
+}
+
+} // namespace lamella

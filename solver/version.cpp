@@ -1,0 +1,15 @@
+#include "version.h"
+
+#include "kernels/kernels.h"
+
+#include <fmt/format.h>
+
+namespace lamella {
+
+std::string_view version() { return LAMELLA_VERSION; }
+
+std::string arithmetic() {
+  return fmt::format("{} kernels, FFTW with estimated plans", kernels().name);
+}
+
+} // namespace lamella
