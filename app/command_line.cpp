@@ -35,10 +35,15 @@ constexpr const char* run_notes = R"(Examples:
 
 A name without folder and ".toml" is first looked for among the built-in scenes; ./NAME is always a
 file. The output folder receives figure.png, energy.png, history.csv, events.csv, frames/,
-scene.toml and summary.txt. Ctrl-C ends a run early and stores what there is.
+scene.toml, status.toml and summary.txt. Ctrl-C ends a run early and stores what there is.
+
+A run that was interrupted or killed goes on as if it had not been:
+  lamella run --resume oblate
+  lamella run --resume oblate --branch -o longer --set run.end_time=0.01
 
 Exit codes: 0 done, 2 bad scene or command line (nothing written), 3 the run could not go on (stored
-up to there), 4 a file could not be written, 5 no pictures, 130 interrupted.)";
+up to there), 4 a file could not be written, 5 no pictures, 75 interrupted and can be resumed, 130
+interrupted before there was anything to resume.)";
 
 constexpr const char* render_notes = R"(Examples:
   lamella render oblate                 figure.png and energy.png again
@@ -75,18 +80,17 @@ void add_backend(CLI::App& command, std::string& backend) {
       ->type_name("NAME");
 }
 
-void add_scene(CLI::App& command, std::string& scene, std::vector<std::string>& set) {
-  command.add_option("scene", scene, "Scene file (.toml), or the name of a built-in scene")
-      ->required()
-      ->type_name("");
+CLI::Option* add_scene(CLI::App& command, std::string& scene, std::vector<std::string>& set) {
   command.add_option("--set", set, "Change a value of the scene; may be repeated")
       ->allow_extra_args(false)
       ->take_all()
       ->type_name("SECTION.KEY=VALUE");
+  return command.add_option("scene", scene, "Scene file (.toml), or the name of a built-in scene")
+      ->type_name("");
 }
 
-void add_output(CLI::App& command, std::filesystem::path& folder, const char* description) {
-  command.add_option("-o,--output", folder, description)
+CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const char* description) {
+  return command.add_option("-o,--output", folder, description)
       ->check([](const std::string& name) { return name.empty() ? "the name is empty" : ""; })
       ->type_name("FOLDER");
 }
@@ -100,12 +104,30 @@ void add_threads(CLI::App& command, int& threads) {
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App& run = *app.add_subcommand("run", "Run a scene; numbers and pictures go to a folder");
   run.footer(run_notes);
-  add_scene(run, options.scene, options.set);
+  CLI::Option* scene = add_scene(run, options.scene, options.set);
   run.add_option("--preset", options.preset,
                  "draft, standard or fine: grid and tolerance relative to the scene's own")
       ->capture_default_str()
       ->type_name("NAME");
-  add_output(run, options.folder, "Output folder (default: the scene's name)");
+  CLI::Option* output =
+      add_output(run, options.folder, "Output folder (default: the scene's name)");
+  CLI::Option* resume =
+      run.add_option("--resume", options.resume, "Go on with the run in a folder, to the last bit")
+          ->type_name("FOLDER");
+  CLI::Option* branch =
+      run.add_flag("--branch", options.branch,
+                   "With --resume, -o and --set: go on in another folder, with a changed scene")
+          ->needs(resume, output);
+  run.add_option("--checkpoint-every", options.checkpoint_seconds,
+                 "Seconds of wall-clock time between checkpoints; 0: none")
+      ->check(CLI::Range(0., 1e9).description(""))
+      ->capture_default_str()
+      ->type_name("S");
+  run.callback([=] {
+    if (scene->empty() && resume->empty()) throw CLI::RequiredError("scene");
+    if (!resume->empty() && !output->empty() && branch->empty())
+      throw CLI::ExcludesError("--resume", "-o without --branch");
+  });
   add_threads(run, options.threads);
   run.add_flag("--force", options.force, "Replace an earlier run in the output folder");
   run.add_flag("--no-pictures", options.no_pictures, "Numbers only");
@@ -185,7 +207,7 @@ void add_tradeoff(CLI::App& app, TradeoffOptions& options) {
   CLI::App& tradeoff =
       *app.add_subcommand("tradeoff", "Measure accuracy against time over grids and tolerances");
   tradeoff.footer(tradeoff_notes);
-  add_scene(tradeoff, options.scene, options.set);
+  add_scene(tradeoff, options.scene, options.set)->required();
   add_output(tradeoff, options.folder,
              "Output folder (default: the scene's name and \"-tradeoff\")");
   CLI::Option* grids =

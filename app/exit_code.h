@@ -10,7 +10,8 @@ enum ExitCode {
   run_stopped = 3,   ///< the run could not go on; the last good state is stored
   cannot_store = 4,  ///< a file could not be written or read
   no_pictures = 5,   ///< the run is complete, its pictures could not be drawn
-  interrupted = 130, ///< Ctrl-C or SIGTERM; what there is is stored
+  resumable = 75,    ///< a run was interrupted; `lamella run --resume` goes on
+  interrupted = 130, ///< Ctrl-C or SIGTERM; there is nothing to resume
 };
 
 } // namespace lamella

@@ -27,8 +27,8 @@ std::size_t line_width() {
 
 } // namespace
 
-Progress::Progress(const Scene& scene)
-    : end_time_(scene.end_time),
+Progress::Progress(const Scene& scene, double from)
+    : from_(from), end_time_(scene.end_time),
       longest_step_(scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step
                                                      : scene.end_time / 16),
       spacing_(scene.grid().spacing), terminal_(isatty(STDERR_FILENO)), start_(Clock::now()),
@@ -38,6 +38,7 @@ Progress::~Progress() { clear(); }
 
 void Progress::tell(std::span<const Event> all) {
   for (; told_ < all.size(); told_++) {
+    if (from_ > 0 && all[told_].time <= from_) continue;
     clear();
     say(to_text(all[told_], spacing_) + '\n');
   }

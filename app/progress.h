@@ -14,7 +14,8 @@ namespace lamella {
 /// said above it.
 class Progress {
 public:
-  explicit Progress(const Scene& scene);
+  /// From a time on; events before it are not said.
+  Progress(const Scene& scene, double from);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -28,7 +29,7 @@ private:
   void show(const std::string& line);
   void clear();
 
-  double end_time_, longest_step_, spacing_;
+  double from_, end_time_, longest_step_, spacing_;
   bool terminal_;
   long steps_ = 0;
   std::size_t told_ = 0;

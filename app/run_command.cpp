@@ -5,14 +5,18 @@
 #include "interrupt.h"
 #include "parallel.h"
 #include "progress.h"
+#include "resume.h"
 #include "run_folder.h"
 #include "scene/preset.h"
+#include "scene/scene_toml.h"
 #include "start_frame.h"
 #include "summary.h"
 #include "time_loop.h"
+#include "usage_error.h"
+#include "version.h"
 
-#include <chrono>
 #include <fmt/format.h>
+#include <memory>
 
 namespace lamella {
 
@@ -20,31 +24,87 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// One line on standard error.
 void remark(const std::string& text) {
   std::fputs(fmt::format("lamella: {}\n", text).c_str(), stderr);
 }
 
-/// The whole run, with the state at which it ended as its last frame.
-Outcome carry_out(Simulation& sim, const Scene& scene, RunFolder& folder, Course& course) {
+/// A run on its way: the simulation, where it is stored, and what is remembered of it.
+class Run {
+public:
+  Run(const RunOptions& options, const Scene& scene, Simulation& simulation, RunFolder& folder,
+      Course course, const Resumed& resumed, std::string origin = {})
+      : options_(options), scene_(scene), sim_(simulation), folder_(folder),
+        course_(std::move(course)), loop_(simulation, scene, resumed), origin_(std::move(origin)) {}
+
+  /// To its end, with the state there as its last frame. Returns an ExitCode.
+  int carry_out();
+  /// What is stored of the state with which a run begins.
+  void store_start();
+  void store_checkpoint();
+
+private:
+  Outcome advance();
+  void store_step(bool frame_is_due);
+  RunStatus status(RunStatus::State state, const std::string& reason = {}) const;
+  void finish(const Outcome& outcome);
+  void report(const Outcome& outcome) const;
+
+  const RunOptions& options_;
+  const Scene& scene_;
+  Simulation& sim_;
+  RunFolder& folder_;
+  Course course_;
+  TimeLoop loop_;
+  std::string origin_;         ///< of a branch
+  double checkpoint_time_ = 0; ///< wall-clock time of the last one
+};
+
+RunStatus Run::status(RunStatus::State state, const std::string& reason) const {
+  return {state, reason, sim_.time(), loop_.wall_seconds(), thread_count(), {}, origin_};
+}
+
+void Run::store_start() {
+  folder_.add(sim_.measures());
+  folder_.add_new(sim_.events());
+  folder_.add(sim_.frame());
+}
+
+void Run::store_checkpoint() {
+  checkpoint_time_ = loop_.wall_seconds();
+  Checkpoint checkpoint;
+  checkpoint.program = version();
+  checkpoint.arithmetic = arithmetic();
+  checkpoint.threads = thread_count();
+  checkpoint.wall_seconds = checkpoint_time_;
+  checkpoint.stopping = loop_.stopping();
+  checkpoint.state = sim_.state();
+  folder_.add(sim_.frame(), std::move(checkpoint));
+}
+
+void Run::store_step(bool frame_is_due) {
+  course_.add(sim_.measures());
+  folder_.add(sim_.measures());
+  folder_.add_new(sim_.events());
+  if (frame_is_due) folder_.add(sim_.frame());
+  const double since = loop_.wall_seconds() - checkpoint_time_;
+  const bool is_due = options_.checkpoint_seconds > 0 && since >= options_.checkpoint_seconds;
+  if (checkpoint_requested() || is_due) store_checkpoint();
+}
+
+Outcome Run::advance() {
   try {
-    folder.add(sim.measures());
-    folder.add_new(sim.events());
-    folder.add(sim.frame());
-    const Outcome outcome = advance(sim, scene, [&](bool frame_is_due) {
-      course.add(sim.measures());
-      folder.add(sim.measures());
-      folder.add_new(sim.events());
-      if (frame_is_due) folder.add(sim.frame());
-    });
-    if (folder.last_frame_time() < sim.time()) folder.add(sim.frame());
+    checkpoint_time_ = loop_.wall_seconds();
+    folder_.write(status(RunStatus::State::running));
+    const Outcome outcome = loop_.run([this](bool frame_is_due) { store_step(frame_is_due); });
+    const bool can_go_on = outcome.code != run_stopped && course_.steps() > 0;
+    if (can_go_on && options_.checkpoint_seconds > 0) store_checkpoint();
+    if (folder_.last_frame_time() < sim_.time()) folder_.add(sim_.frame());
     return outcome;
   } catch (const StoreError& e) {
-    throw StoreError(
-        fmt::format("{}; the run stopped at t = {:.6g}, what was stored before is whole", e.what(),
-                    sim.time()));
+    throw StoreError(fmt::format("{}; the run stopped at t = {:.6g}, what was stored before is "
+                                 "whole, and `lamella run --resume {}` goes on from there",
+                                 e.what(), sim_.time(), folder_.path().string()));
   }
 }
 
@@ -84,12 +144,16 @@ std::string phases_result(const PhaseMeasures& start, const PhaseMeasures& end) 
                      end.domains_Lo);
 }
 
-void report(const Simulation& sim, const Course& course, const Outcome& outcome, double seconds) {
-  const std::string words = words_for(outcome, sim.time()), warning = caution(sim.events());
+void Run::report(const Outcome& outcome) const {
+  const std::string words = words_for(outcome, sim_.time()), warning = caution(sim_.events());
   if (outcome.code == success && !outcome.reason.empty()) say(fmt::format("The run {}\n", words));
-  say(result(course, seconds));
-  if (course.end().phases) say(phases_result(*course.start().phases, *course.end().phases));
-  if (outcome.code != success) remark(fmt::format("the run {}; stored up to there", words));
+  say(result(course_, loop_.wall_seconds()));
+  if (course_.end().phases) say(phases_result(*course_.start().phases, *course_.end().phases));
+  if (outcome.code == resumable)
+    remark(fmt::format("the run {}; `lamella run --resume {}` goes on", words,
+                       folder_.path().string()));
+  else if (outcome.code != success)
+    remark(fmt::format("the run {}; stored up to there", words));
   if (!warning.empty()) remark("warning: " + warning);
 }
 
@@ -100,35 +164,159 @@ std::string contents(const RunFolder& folder, bool pictures) {
                      folder.frames());
 }
 
-} // namespace
+void Run::finish(const Outcome& outcome) {
+  const RunStatus::State state = outcome.code == success     ? RunStatus::State::finished
+                                 : outcome.code == resumable ? RunStatus::State::interrupted
+                                                             : RunStatus::State::stopped;
+  folder_.write_summary(summary(scene_, course_, sim_.events(), outcome, loop_.wall_seconds()));
+  folder_.write(status(state, outcome.reason));
+  report(outcome);
+}
 
-int run(const RunOptions& options) {
-  Scene scene = at_preset(find_preset(options.preset), find_scene(options.scene, options.set));
+int Run::carry_out() {
+  const Outcome outcome = advance();
+  finish(outcome);
+  const int pictures = options_.no_pictures ? success : draw(folder_, options_);
+  say(contents(folder_, !options_.no_pictures && pictures == success));
+  return outcome.code != success ? outcome.code : pictures;
+}
+
+// -----------------------------------------------------------------------------------------------
+// the three ways in
+
+/// The scene that the options ask for. `stored`: that of the run to go on with.
+Scene wanted_scene(const RunOptions& options, const std::string& stored = {}) {
+  const std::string& name = options.scene.empty() ? stored : options.scene;
+  Scene scene = at_preset(find_preset(options.preset), find_scene(name, options.set));
   validate(scene);
+  return scene;
+}
+
+int run_from_start(const RunOptions& options) {
+  Scene scene = wanted_scene(options);
   const fs::path path = options.folder.empty() ? fs::path(scene.name) : options.folder;
   refuse_unsuitable(path, options.force);
-  set_thread_count(options.threads);
-  watch_for_interrupt();
   const std::string origin =
       scene.shape.kind == ShapeKind::frame ? fmt::format("from {} ", scene.shape.file) : "";
   const StartFrame start_frame(scene);
-  const auto begin = Clock::now();
   Simulation sim = start(scene);
   if (interrupt_requested()) {
     remark("interrupted before the run began; nothing was written");
     return interrupted;
   }
-  RunFolder folder(path, scene, sim.measures());
+  RunFolder folder(path, scene, sim);
   say(opening(scene, origin));
+  Run run(options, scene, sim, folder, Course(sim.measures()), {});
+  run.store_start();
+  return run.carry_out();
+}
 
-  Course course(sim.measures());
-  const Outcome outcome = carry_out(sim, scene, folder, course);
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  folder.write_summary(summary(scene, course, sim.events(), outcome, seconds));
-  report(sim, course, outcome, seconds);
-  const int pictures = options.no_pictures ? success : draw(folder, options);
-  say(contents(folder, !options.no_pictures && pictures == success));
-  return outcome.code != success ? outcome.code : pictures;
+/// The simulation at a checkpoint, or at its start where there is none. Throws SceneError.
+std::unique_ptr<Simulation> simulation_at(const Scene& scene, const Checkpoint* checkpoint) {
+  try {
+    if (checkpoint) return std::make_unique<Simulation>(scene, checkpoint->state);
+    return std::make_unique<Simulation>(scene);
+  } catch (const RunError& e) {
+    throw SceneError(fmt::format("{}: the run cannot go on: {}", scene.name, e.what()));
+  }
+}
+
+/// Of the rows that a checkpoint found.
+Course course_until(const fs::path& folder, double time) {
+  std::vector<Measures> rows = read_history(folder / "history.csv");
+  if (rows.empty()) throw StoreError((folder / "history.csv").string() + ": it has no rows");
+  Course course(rows.front());
+  for (std::size_t i = 1; i < rows.size() && rows[i].time <= time * (1 + 1e-11); i++)
+    course.add(rows[i]);
+  return course;
+}
+
+void warn_of_other_arithmetic(const Checkpoint& checkpoint) {
+  if (checkpoint.program != version() || checkpoint.arithmetic != arithmetic())
+    remark(fmt::format("warning: the checkpoint is of lamella {} with {}, this is {} with {}: the "
+                       "run goes on, but not to the last bit",
+                       checkpoint.program, checkpoint.arithmetic, version(), arithmetic()));
+}
+
+int resume_in_place(const RunOptions& options, const Scene& scene,
+                    const std::optional<Checkpoint>& checkpoint) {
+  const Checkpoint* from = checkpoint ? &*checkpoint : nullptr;
+  const std::unique_ptr<Simulation> sim = simulation_at(scene, from);
+  RunFolder folder(options.resume, *sim, from);
+  Course course = from ? course_until(options.resume, sim->time()) : Course(sim->measures());
+  say(opening(scene, from ? fmt::format("resumed at t = {:.6g}, ", sim->time())
+                          : "resumed at its start, "));
+  Resumed resumed;
+  if (from) resumed = {from->stopping, from->wall_seconds};
+  Run run(options, scene, *sim, folder, std::move(course), resumed,
+          status_of_run(options.resume).origin);
+  if (!from) run.store_start();
+  return run.carry_out();
+}
+
+int branch_off(const RunOptions& options, const Scene& scene, const Checkpoint& checkpoint,
+               const Scene& stored, const std::vector<const Key*>& changed) {
+  refuse_unbranchable(changed, stored, scene);
+  refuse_unsuitable(options.folder, options.force);
+  Checkpoint from = checkpoint;
+  from.state = branched(std::move(from.state), changed);
+  const std::unique_ptr<Simulation> sim = simulation_at(scene, &from);
+  if (sim->time() >= scene.end_time)
+    throw UsageError(fmt::format("the state is at t = {:.6g} already; set run.end_time beyond it, "
+                                 "as in --set run.end_time={:g}",
+                                 sim->time(), 2 * sim->time()));
+  RunFolder folder(options.folder, scene, *sim);
+  const std::string origin = fmt::format("{}, t = {:.6g}", options.resume.string(), sim->time());
+  say(opening(scene, fmt::format("from {} ", origin)));
+  Run run(options, scene, *sim, folder, Course(sim->measures()), {from.stopping, 0}, origin);
+  run.store_start();
+  run.store_checkpoint(); // its scene alone does not lead here
+  return run.carry_out();
+}
+
+int resume(const RunOptions& options) {
+  const fs::path& path = options.resume;
+  if (!can_be_resumed(path)) {
+    if (options.scene.empty())
+      throw UsageError(path.string() + ": there is no run to resume; with a scene, as in `lamella "
+                                       "run SCENE --resume FOLDER`, one is started");
+    if (fs::is_directory(path)) remove_unfinished_files(path);
+    RunOptions anew = options;
+    anew.folder = path;
+    return run_from_start(anew);
+  }
+  const Scene scene = wanted_scene(options, (path / "scene.toml").string());
+  const std::optional<Checkpoint> checkpoint = newest_checkpoint(path, [](const std::string& why) {
+    remark(fmt::format("warning: {}; falling back to the state before", why));
+  });
+  const std::string place = (path / "scene.toml").string();
+  const Scene stored = checkpoint ? parse_scene(checkpoint->scene, place) : read_scene(place);
+  const std::vector<const Key*> changed = differences(stored, scene);
+  if (options.branch) {
+    if (!checkpoint) throw UsageError(path.string() + ": there is no checkpoint to branch from");
+    return branch_off(options, scene, *checkpoint, stored, changed);
+  }
+  if (!changed.empty())
+    throw UsageError(
+        fmt::format("{}: the scene is not that of the run: {}; --branch with -o starts "
+                    "another run from its state",
+                    path.string(), difference_text(changed, stored, scene)));
+  const RunStatus status = status_of_run(path);
+  if (status.state == RunStatus::State::finished || status.state == RunStatus::State::stopped) {
+    say(fmt::format("{}: the run has {} at t = {:.6g}; nothing is left to do\n", path.string(),
+                    to_string(status.state), status.time));
+    return status.state == RunStatus::State::finished ? success : run_stopped;
+  }
+  if (checkpoint) warn_of_other_arithmetic(*checkpoint);
+  return resume_in_place(options, scene, checkpoint);
+}
+
+} // namespace
+
+int run(const RunOptions& options) {
+  set_thread_count(options.threads);
+  watch_for_interrupt();
+  return options.resume.empty() ? run_from_start(options) : resume(options);
 }
 
 } // namespace lamella

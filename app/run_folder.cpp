@@ -9,6 +9,12 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <regex>
+#include <sstream>
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace lamella {
 
@@ -21,16 +27,23 @@ constexpr const char* start_file = "start.hdf";
 constexpr const char* history_file = "history.csv";
 constexpr const char* events_file = "events.csv";
 constexpr const char* summary_file = "summary.txt";
+constexpr const char* status_file = "status.toml";
+constexpr const char* checkpoints_folder = "checkpoints";
 constexpr const char* frames_folder = "frames";
 constexpr const char* series_file = "frames.hdf.series";
 
 // The names of what a run writes, as regular expressions.
 constexpr const char* own_files =
-    R"(scene\.toml|start\.hdf|history\.csv|events\.csv|summary\.txt|figure\.png|energy\.png)";
+    R"(start\.hdf|history\.csv|events\.csv|status\.toml|summary\.txt|figure\.png|energy\.png)";
+constexpr const char* own_scene = R"(scene\.toml)";
+constexpr const char* results = R"(summary\.txt|figure\.png|energy\.png)";
 constexpr const char* frame_names = R"(frame_\d{4,}\.hdf)";
 constexpr const char* own_frames = R"(frame_\d{4,}\.hdf|frames\.hdf\.series)";
+constexpr const char* own_checkpoints = R"(checkpoint_\d{8,}\.hdf)";
+constexpr std::size_t checkpoints_kept = 2;
 
 std::string frame_file(std::size_t number) { return fmt::format("frame_{:04}.hdf", number); }
+std::string checkpoint_file(long steps) { return fmt::format("checkpoint_{:08}.hdf", steps); }
 
 bool matches(const fs::path& file, const char* names) {
   return std::regex_match(file.filename().string(), std::regex(names));
@@ -56,33 +69,65 @@ bool holds_run(const fs::path& folder) {
          (columns.empty() || columns.starts_with("t,dt,energy,"));
 }
 
-/// Removes the files of these names, and what a killed program left of writing them.
-void erase(const fs::path& folder, const char* names) {
-  const std::string unfinished = fmt::format(R"(\.({})\.\d+-\d+\.tmp)", names);
+void erase_if(const fs::path& folder, const std::function<bool(const fs::path&)>& unwanted) {
+  if (!fs::is_directory(folder)) return;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (matches(entry.path(), names) || matches(entry.path(), unfinished.c_str()))
-      files.push_back(entry.path());
+    if (unwanted(entry.path())) files.push_back(entry.path());
   for (const fs::path& file : files) fs::remove(file);
 }
 
-void erase_run(const fs::path& folder) {
-  erase(folder, own_files);
-  const fs::path frames = folder / frames_folder;
-  if (!fs::is_directory(frames)) return;
-  erase(frames, own_frames);
-  if (fs::is_empty(frames)) fs::remove(frames);
+/// What a killed program left of writing files of these names.
+void erase_unfinished(const fs::path& folder, const char* names) {
+  const std::string unfinished = fmt::format(R"(\.({})\.\d+-\d+\.tmp)", names);
+  erase_if(folder, [&](const fs::path& file) { return matches(file, unfinished.c_str()); });
 }
 
-/// In the order of time.
-std::vector<fs::path> stored_frames(const fs::path& folder) {
+void erase(const fs::path& folder, const char* names) {
+  erase_if(folder, [&](const fs::path& file) { return matches(file, names); });
+  erase_unfinished(folder, names);
+}
+
+/// The scene last: as long as it is there, the folder holds a run.
+void erase_run(const fs::path& folder) {
+  for (const auto& [name, own] :
+       {std::pair{checkpoints_folder, own_checkpoints}, std::pair{frames_folder, own_frames}}) {
+    const fs::path inner = folder / name;
+    erase(inner, own);
+    if (fs::is_directory(inner) && fs::is_empty(inner)) fs::remove(inner);
+  }
+  erase(folder, own_files);
+  erase(folder, own_scene);
+}
+
+/// Files of these names, by the number in them.
+std::vector<fs::path> numbered_files(const fs::path& folder, const char* names) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder / frames_folder))
-    if (matches(entry.path(), frame_names)) files.push_back(entry.path());
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (matches(entry.path(), names)) files.push_back(entry.path());
   std::ranges::sort(files, {}, [](const fs::path& file) {
     return std::pair(file.native().size(), file.native()); // frame_10000 comes after frame_9999
   });
   return files;
+}
+
+/// In the order of time.
+std::vector<fs::path> stored_frames(const fs::path& folder) {
+  return numbered_files(folder / frames_folder, frame_names);
+}
+
+/// Why the run in a folder cannot go on from a checkpoint; empty where it can.
+std::string misfit(const fs::path& folder, const Checkpoint& checkpoint) {
+  const auto is_short = [&](const char* file, long size) {
+    return size <= 0 || fs::file_size(folder / file) < std::uintmax_t(size);
+  };
+  if (is_short(history_file, checkpoint.history_size)) return "history.csv is shorter than it was";
+  if (is_short(events_file, checkpoint.events_size)) return "events.csv is shorter than it was";
+  for (std::size_t i = 0; i < checkpoint.frame_times.size(); i++)
+    if (!fs::is_regular_file(folder / frames_folder / frame_file(i)))
+      return frame_file(i) + " is missing";
+  return {};
 }
 
 } // namespace
@@ -105,8 +150,20 @@ void refuse_unsuitable(const fs::path& folder, bool force) {
   });
 }
 
-RunFolder::RunFolder(const fs::path& folder, const Scene& scene, const Measures& start)
-    : folder_(folder) {
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(descriptor_);
+    throw UsageError(folder.string() + ": another lamella is writing to this folder");
+  }
+} // a file system without locks must do without
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+RunFolder::RunFolder(const fs::path& folder, const Scene& scene, const Simulation& start)
+    : folder_(folder), event_count_(start.time() > 0 ? start.events().size() : 0) {
   Scene stored = scene;
   std::optional<Frame> state; // read before anything is removed: it may be in this very folder
   if (scene.shape.kind == ShapeKind::frame) {
@@ -115,18 +172,48 @@ RunFolder::RunFolder(const fs::path& folder, const Scene& scene, const Measures&
   }
   or_store_error(folder, "cannot be used as output folder", [&] {
     fs::create_directories(folder);
+    lock_.emplace(folder);
     erase_run(folder);
     try {
-      write_text_atomically(folder / scene_file, to_toml(stored));
       if (state) write_frame(folder / start_file, *state);
-      history_.emplace(folder / history_file, start);
-      events_.emplace(folder / events_file);
-      fs::create_directories(folder / frames_folder);
+      write_text_atomically(folder / scene_file, to_toml(stored));
+      open_tables(start, nullptr);
+      write(RunStatus{});
     } catch (...) {
       erase_run(folder);
       throw;
     }
   });
+}
+
+RunFolder::RunFolder(const fs::path& folder, const Simulation& now, const Checkpoint* from)
+    : folder_(folder), event_count_(from ? now.events().size() : 0) {
+  or_store_error(folder, "the run in it cannot be resumed", [&] {
+    lock_.emplace(folder);
+    remove_unfinished_files(folder);
+    erase(folder, results);
+    const std::size_t frames = from ? from->frame_times.size() : 0;
+    for (std::size_t i = 0; i < frames; i++)
+      series_.push_back({frame_file(i), from->frame_times[i]});
+    open_tables(now, from);
+    for (const fs::path& file : stored_frames(folder))
+      if (std::ranges::count(series_, file.filename().string(), &SeriesEntry::file) == 0) fs::remove(file);
+    for (const fs::path& file : stored_checkpoints(folder))
+      if (!from || file.filename() > checkpoint_file(from->state.steps)) fs::remove(file);
+    if (from) write_series(folder / frames_folder / series_file, series_);
+  });
+}
+
+void RunFolder::open_tables(const Simulation& now, const Checkpoint* from) {
+  const fs::path history = folder_ / history_file, events = folder_ / events_file;
+  fs::create_directories(folder_ / frames_folder);
+  if (from) {
+    history_.emplace(history, now.measures(), std::size_t(from->history_size));
+    events_.emplace(events, Event{}, std::size_t(from->events_size));
+  } else {
+    history_.emplace(history, now.measures());
+    events_.emplace(events);
+  }
 }
 
 void RunFolder::add(const Frame& frame) {
@@ -140,6 +227,35 @@ void RunFolder::add_new(std::span<const Event> all) {
   for (; event_count_ < all.size(); event_count_++) events_->add(all[event_count_]);
 }
 
+void RunFolder::add(const Frame& frame, Checkpoint checkpoint) {
+  history_->synchronise();
+  events_->synchronise();
+  checkpoint.scene = scene_text();
+  checkpoint.history_size = long(history_->size());
+  checkpoint.events_size = long(events_->size());
+  for (const SeriesEntry& entry : series_) checkpoint.frame_times.push_back(entry.time);
+  const fs::path inner = folder_ / checkpoints_folder;
+  or_store_error(inner, "cannot be written", [&] {
+    fs::create_directories(inner);
+    const std::string name = checkpoint_file(checkpoint.state.steps);
+    write_checkpoint(inner / name, frame, std::move(checkpoint));
+    const std::vector<fs::path> files = stored_checkpoints(folder_);
+    for (std::size_t i = 0; i + checkpoints_kept < files.size(); i++) fs::remove(files[i]);
+  });
+}
+
+void RunFolder::write(RunStatus status) const {
+  status.scene_hash = hash_of(scene_text());
+  write_status(folder_ / status_file, status);
+}
+
+std::string RunFolder::scene_text() const {
+  std::ifstream stream(folder_ / scene_file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
 void RunFolder::write_summary(const std::string& text) const {
   write_text_atomically(folder_ / summary_file, text);
 }
@@ -151,6 +267,47 @@ std::optional<fs::path> end_of_run(const fs::path& folder) {
     if (files.empty()) return {};
     return files.back();
   });
+}
+
+bool can_be_resumed(const fs::path& folder) {
+  return or_store_error(folder, "cannot be read",
+                        [&] { return fs::is_regular_file(folder / scene_file); });
+}
+
+void remove_unfinished_files(const fs::path& folder) {
+  or_store_error(folder, "cannot be cleaned up", [&] {
+    erase_unfinished(folder, own_files);
+    erase_unfinished(folder, own_scene);
+    erase_unfinished(folder / frames_folder, own_frames);
+    erase_unfinished(folder / checkpoints_folder, own_checkpoints);
+  });
+}
+
+std::vector<fs::path> stored_checkpoints(const fs::path& folder) {
+  return or_store_error(folder, "cannot be read", [&] {
+    return numbered_files(folder / checkpoints_folder, own_checkpoints);
+  });
+}
+
+std::optional<Checkpoint>
+newest_checkpoint(const fs::path& folder, const std::function<void(const std::string&)>& complain) {
+  std::vector<fs::path> files = stored_checkpoints(folder);
+  for (; !files.empty(); files.pop_back()) {
+    try {
+      Checkpoint checkpoint = read_checkpoint(files.back());
+      const std::string why =
+          or_store_error(folder, "cannot be read", [&] { return misfit(folder, checkpoint); });
+      if (why.empty()) return checkpoint;
+      complain(fmt::format("{}: {}", files.back().string(), why));
+    } catch (const StoreError& e) {
+      complain(e.what());
+    }
+  }
+  return {};
+}
+
+RunStatus status_of_run(const fs::path& folder) {
+  return fs::exists(folder / status_file) ? read_status(folder / status_file) : RunStatus{};
 }
 
 } // namespace lamella

@@ -19,7 +19,7 @@ namespace {
 Frame end_of(Scene scene) {
   const StartFrame start_frame(scene);
   Simulation sim = start(scene);
-  const Outcome outcome = advance(sim, scene, [](bool) {});
+  const Outcome outcome = TimeLoop(sim, scene).run([](bool) {});
   if (outcome.code == run_stopped)
     throw SceneError(fmt::format("{}: no start for another run: it {}", scene.name,
                                  words_for(outcome, sim.time())));

@@ -118,7 +118,7 @@ std::string words_for(const Outcome& outcome, double time) {
   case success:
     return outcome.reason.empty() ? fmt::format("reached the end, t = {:.6g}", time)
                                   : fmt::format("{} at t = {:.6g}", outcome.reason, time);
-  case interrupted:
+  case resumable:
     return fmt::format("was interrupted at t = {:.6g}", time);
   default:
     return fmt::format("stopped at t = {:.6g}: {}", time, outcome.reason);

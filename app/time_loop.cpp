@@ -1,29 +1,18 @@
 #include "time_loop.h"
 
-#include "dynamics/stopping.h"
 #include "error.h"
 #include "interrupt.h"
 #include "progress.h"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <new>
 
 namespace lamella {
 
 namespace {
-
 using Clock = std::chrono::steady_clock;
-
-/// Why the scene's rules end the run here, or nothing.
-std::optional<std::string> reason_to_stop(Stopping& stopping, const Simulation& sim,
-                                          Clock::time_point begin) {
-  const auto changes = std::ranges::count_if(sim.events(), &Event::changes_topology);
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  return stopping.reason(sim.measures(), int(changes), sim.ramping(), seconds);
-}
-
+constexpr double rounding = 1e-12; // of times, relative
 } // namespace
 
 Simulation start(const Scene& scene) {
@@ -37,25 +26,46 @@ Simulation start(const Scene& scene) {
   }
 }
 
-Outcome advance(Simulation& sim, const Scene& scene, const std::function<void(bool)>& store) {
-  const auto begin = Clock::now();
-  const int last = scene.output.frames - 1;
-  Stopping stopping(scene.stop);
-  Progress progress(scene);
-  progress.tell(sim.events());
-  for (int next = 1; next <= last;) {
-    if (interrupt_requested()) return {interrupted, ""};
-    if (const auto reason = reason_to_stop(stopping, sim, begin)) return {success, *reason};
-    const double goal = next == last ? scene.end_time : scene.end_time * next / last;
+TimeLoop::TimeLoop(Simulation& simulation, const Scene& scene, const Resumed& resumed)
+    : simulation_(simulation), scene_(scene), stopping_(scene.stop, resumed.stopping),
+      seconds_before_(resumed.wall_seconds), begin_(Clock::now()) {}
+
+double TimeLoop::wall_seconds() const {
+  return seconds_before_ + std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+/// Why the scene's rules end the run here, or nothing.
+std::optional<std::string> TimeLoop::reason_to_stop() {
+  const auto changes = std::ranges::count_if(simulation_.events(), &Event::changes_topology);
+  return stopping_.reason(simulation_.measures(), int(changes), simulation_.ramping(),
+                          wall_seconds());
+}
+
+double TimeLoop::frame_time(int number) const {
+  const int last = scene_.output.frames - 1;
+  return number == last ? scene_.end_time : scene_.end_time * number / last;
+}
+
+Outcome TimeLoop::run(const std::function<void(bool)>& store) {
+  const int last = scene_.output.frames - 1;
+  Progress progress(scene_, simulation_.time());
+  progress.tell(simulation_.events());
+  const auto is_reached = [&](double goal) { return goal - simulation_.time() <= rounding * goal; };
+  int next = 1;
+  while (next <= last && is_reached(frame_time(next))) next++;
+  while (next <= last) {
+    if (interrupt_requested()) return {resumable, ""};
+    if (const auto reason = reason_to_stop()) return {success, *reason};
+    const double goal = frame_time(next);
     try {
-      sim.step(goal);
+      simulation_.step(goal);
     } catch (const RunError& e) {
       return {run_stopped, e.what()};
     }
-    const bool frame_is_due = goal - sim.time() <= 1e-12 * goal;
+    const bool frame_is_due = is_reached(goal);
     store(frame_is_due);
-    progress.tell(sim.events());
-    progress.update(sim.measures(), sim.next_dt());
+    progress.tell(simulation_.events());
+    progress.update(simulation_.measures(), simulation_.next_dt());
     if (frame_is_due) next++;
   }
   return {};

@@ -149,7 +149,7 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"wall_seconds", number(c.wall_seconds)},
               {"history_size", number(c.history_size)},
               {"events_size", number(c.events_size)},
-              {"frames", number(c.frames)},
+              {"frame_times", &c.frame_times},
               {"stopping/energy_before", number(c.stopping.energy_before)},
               {"stopping/steps_at_rest", number(c.stopping.steps_at_rest)},
               {"measures", &tables.measures},

@@ -15,7 +15,7 @@ struct Checkpoint {
   int threads = 0;                        ///< for the record: results do not depend on them
   double wall_seconds = 0;                ///< that the run has taken so far
   long history_size = 0, events_size = 0; ///< bytes of history.csv and events.csv
-  int frames = 0;                         ///< stored so far
+  Array<double> frame_times;              ///< of the frames stored so far
   Stopping::State stopping;
   SimulationState state;
 };

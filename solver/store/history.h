@@ -25,6 +25,11 @@ public:
   /// Replaces the file; for records with the same columns as `like`.
   explicit RecordWriter(const std::filesystem::path& file, Record like = {})
       : table_(file, row_of(like)) {}
+  /// Goes on after the first `size` bytes of one.
+  RecordWriter(const std::filesystem::path& file, Record like, std::size_t size)
+      : table_(file, row_of(like), size) {}
+  std::size_t size() const { return table_.size(); }
+  void synchronise() { table_.synchronise(); }
   void add(Record record) { table_.add(row_of(record)); }
 
 private:

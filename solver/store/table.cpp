@@ -70,6 +70,20 @@ TableWriter::TableWriter(const std::filesystem::path& file, const Row& columns)
   append(header(columns));
 }
 
+TableWriter::TableWriter(const std::filesystem::path& file, const Row& columns, std::size_t size)
+    : path_(file), file_(file, O_APPEND), columns_(columns.size()), size_(size) {
+  const auto refuse = [&](std::string_view why) {
+    throw StoreError(fmt::format("{}: the table cannot be continued: {}", file.string(), why));
+  };
+  if (std::filesystem::file_size(file) < size) refuse("rows are missing");
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  if (!std::getline(stream, line) || line != header(columns)) refuse("it has other columns");
+  stream.seekg(std::streamoff(size) - 1);
+  if (stream.get() != '\n') refuse("its rows are not those that were there");
+  if (!file_.truncate(size)) throw_system_error(file, "truncated");
+}
+
 void TableWriter::append(const std::string& line) {
   const std::string text = line + '\n';
   try {

@@ -24,6 +24,14 @@ class TableWriter {
 public:
   /// Replaces the file. Throws StoreError, as add does.
   TableWriter(const std::filesystem::path& file, const Row& columns);
+  /// Goes on after the first `size` bytes of a table that another writer left: the size() that it
+  /// had. What follows them is cut off.
+  TableWriter(const std::filesystem::path& file, const Row& columns, std::size_t size);
+
+  /// Bytes.
+  std::size_t size() const { return size_; }
+  /// Makes the rows last through a power failure.
+  void synchronise() { file_.synchronise(); }
 
   /// Refuses numbers that are not finite and rows of other columns. After a failure the file still
   /// ends with a whole row.
