@@ -37,13 +37,13 @@ public:
       : options_(options), scene_(scene), sim_(simulation), folder_(folder),
         course_(std::move(course)), loop_(simulation, scene, resumed), origin_(std::move(origin)) {}
 
+  enum class Beginning { scene, branch, checkpoint };
   /// To its end, with the state there as its last frame. Returns an ExitCode.
-  int carry_out();
-  /// What is stored of the state with which a run begins.
-  void store_start();
-  void store_checkpoint();
+  int carry_out(Beginning beginning);
 
 private:
+  void store_start(bool is_branch);
+  void store_checkpoint();
   Outcome advance();
   void store_step(bool frame_is_due);
   RunStatus status(RunStatus::State state, const std::string& reason = {}) const;
@@ -64,10 +64,11 @@ RunStatus Run::status(RunStatus::State state, const std::string& reason) const {
   return {state, reason, sim_.time(), loop_.wall_seconds(), thread_count(), {}, origin_};
 }
 
-void Run::store_start() {
+void Run::store_start(bool is_branch) {
   folder_.add(sim_.measures());
   folder_.add_new(sim_.events());
   folder_.add(sim_.frame());
+  if (is_branch) store_checkpoint(); // its scene alone does not lead here
 }
 
 void Run::store_checkpoint() {
@@ -93,19 +94,13 @@ void Run::store_step(bool frame_is_due) {
 }
 
 Outcome Run::advance() {
-  try {
-    checkpoint_time_ = loop_.wall_seconds();
-    folder_.write(status(RunStatus::State::running));
-    const Outcome outcome = loop_.run([this](bool frame_is_due) { store_step(frame_is_due); });
-    const bool can_go_on = outcome.code != run_stopped && course_.steps() > 0;
-    if (can_go_on && options_.checkpoint_seconds > 0) store_checkpoint();
-    if (folder_.last_frame_time() < sim_.time()) folder_.add(sim_.frame());
-    return outcome;
-  } catch (const StoreError& e) {
-    throw StoreError(fmt::format("{}; the run stopped at t = {:.6g}, what was stored before is "
-                                 "whole, and `lamella run --resume {}` goes on from there",
-                                 e.what(), sim_.time(), folder_.path().string()));
-  }
+  checkpoint_time_ = loop_.wall_seconds();
+  folder_.write(status(RunStatus::State::running));
+  const Outcome outcome = loop_.run([this](bool frame_is_due) { store_step(frame_is_due); });
+  const bool can_go_on = outcome.code != run_stopped && course_.steps() > 0;
+  if (can_go_on && options_.checkpoint_seconds > 0) store_checkpoint();
+  if (folder_.last_frame_time() < sim_.time()) folder_.add(sim_.frame());
+  return outcome;
 }
 
 int draw(const RunFolder& folder, const RunOptions& options) {
@@ -173,9 +168,17 @@ void Run::finish(const Outcome& outcome) {
   report(outcome);
 }
 
-int Run::carry_out() {
-  const Outcome outcome = advance();
-  finish(outcome);
+int Run::carry_out(Beginning beginning) {
+  Outcome outcome;
+  try {
+    if (beginning != Beginning::checkpoint) store_start(beginning == Beginning::branch);
+    outcome = advance();
+    finish(outcome);
+  } catch (const StoreError& e) {
+    throw StoreError(fmt::format("{}; the run stopped at t = {:.6g}, what was stored before is "
+                                 "whole, and `lamella run --resume {}` goes on from there",
+                                 e.what(), sim_.time(), folder_.path().string()));
+  }
   const int pictures = options_.no_pictures ? success : draw(folder_, options_);
   say(contents(folder_, !options_.no_pictures && pictures == success));
   return outcome.code != success ? outcome.code : pictures;
@@ -207,8 +210,7 @@ int run_from_start(const RunOptions& options) {
   RunFolder folder(path, scene, sim);
   say(opening(scene, origin));
   Run run(options, scene, sim, folder, Course(sim.measures()), {});
-  run.store_start();
-  return run.carry_out();
+  return run.carry_out(Run::Beginning::scene);
 }
 
 /// The simulation at a checkpoint, or at its start where there is none. Throws SceneError.
@@ -250,8 +252,7 @@ int resume_in_place(const RunOptions& options, const Scene& scene,
   if (from) resumed = {from->stopping, from->wall_seconds};
   Run run(options, scene, *sim, folder, std::move(course), resumed,
           status_of_run(options.resume).origin);
-  if (!from) run.store_start();
-  return run.carry_out();
+  return run.carry_out(from ? Run::Beginning::checkpoint : Run::Beginning::scene);
 }
 
 int branch_off(const RunOptions& options, const Scene& scene, const Checkpoint& checkpoint,
@@ -269,9 +270,7 @@ int branch_off(const RunOptions& options, const Scene& scene, const Checkpoint& 
   const std::string origin = fmt::format("{}, t = {:.6g}", options.resume.string(), sim->time());
   say(opening(scene, fmt::format("from {} ", origin)));
   Run run(options, scene, *sim, folder, Course(sim->measures()), {from.stopping, 0}, origin);
-  run.store_start();
-  run.store_checkpoint(); // its scene alone does not lead here
-  return run.carry_out();
+  return run.carry_out(Run::Beginning::branch);
 }
 
 int resume(const RunOptions& options) {

@@ -94,8 +94,8 @@ TEST_F(Cli, fills_the_folder) {
   const Result result = call(quick({"-o", "run"}));
   ASSERT_EQ(result.code, 0) << result.err;
   const fs::path run = work() / "run";
-  EXPECT_THAT(names_in(run),
-              ElementsAre("events.csv", "frames", "history.csv", "scene.toml", "summary.txt"));
+  EXPECT_THAT(names_in(run), ElementsAre("checkpoints", "events.csv", "frames", "history.csv",
+                                         "scene.toml", "status.toml", "summary.txt"));
   EXPECT_THAT(text_of(run / "history.csv"),
               StartsWith("t,dt,energy,bending_energy,int_KM2,P,sigma,K_multiplier,A,V,v,Da,dA_rel,"
                          "dV_rel,max_speed,components,genus"));
@@ -279,8 +279,9 @@ TEST_F(Cli, replaces_a_run_only_when_told_and_keeps_what_is_not_its_own) {
   for (const char* other : others) EXPECT_EQ(text_of(run / other), "precious") << other;
   EXPECT_THAT(names_in(run / "frames"),
               ElementsAre("frame_0000.hdf", "frame_0001.hdf", "frames.hdf.series", "mine.hdf"));
-  EXPECT_THAT(names_in(run), ElementsAre("events.csv", "frames", "history.csv", "history.csv.bak",
-                                         "notes.txt", "scene.toml", "summary.txt"));
+  EXPECT_THAT(names_in(run),
+              ElementsAre("checkpoints", "events.csv", "frames", "history.csv", "history.csv.bak",
+                          "notes.txt", "scene.toml", "status.toml", "summary.txt"));
 }
 
 TEST_F(Cli, keeps_the_old_run_when_the_new_one_cannot_start) {
@@ -312,8 +313,9 @@ TEST_F(Cli, stores_and_draws_what_there_is_when_interrupted) {
   wait_for_rows(work() / "run");
   program.interrupt();
   const Result result = program.wait();
-  EXPECT_EQ(result.code, 130);
-  EXPECT_THAT(result.err, MatchesRegex("lamella: the run was interrupted at t = [^\n]+\n"));
+  EXPECT_EQ(result.code, 75);
+  EXPECT_THAT(result.err, MatchesRegex("lamella: the run was interrupted at t = [^\n]+; `lamella "
+                                       "run --resume run` goes on\n"));
   const std::vector<Measures> history = check_stored(work() / "run");
   EXPECT_GT(history.size(), 5u);
   expect_last_frame_at(history.back().time, work() / "run");
@@ -411,7 +413,8 @@ TEST_F(Cli, keeps_the_numbers_where_nothing_can_be_drawn) {
   EXPECT_THAT(result.err, AllOf(MatchesRegex("lamella: no pictures: [^\n]+\n"),
                                 HasSubstr("DISPLAY"), HasSubstr("lamella render")));
   EXPECT_THAT(names_in(work() / "run"),
-              ElementsAre("events.csv", "frames", "history.csv", "scene.toml", "summary.txt"));
+              ElementsAre("checkpoints", "events.csv", "frames", "history.csv", "scene.toml",
+                          "status.toml", "summary.txt"));
   EXPECT_EQ(call({"render", "run", "--backend", "x"}).code, 5);
 }
 

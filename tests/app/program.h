@@ -52,7 +52,8 @@ public:
     execute(arguments, setting);
   }
 
-  void interrupt() const { kill(id_, SIGINT); }
+  void interrupt() const { signal(SIGINT); }
+  void signal(int number) const { kill(id_, number); }
 
   Result wait() const {
     int status = 0;

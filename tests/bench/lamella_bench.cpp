@@ -1,6 +1,7 @@
 // Cost of a step and of its parts. In one run, so that ratios hold on a noisy machine:
 //   lamella_bench --benchmark_filter=Step     milliseconds a step, and steps in units of one FFTW
 //   pair lamella_bench --benchmark_filter=Run      the whole Fig. 3 oblate run, with its errors
+//   lamella_bench --benchmark_filter=Store    frames and checkpoints, their time and size
 //   LAMELLA_KERNELS=avx2 lamella_bench ...    the same with other kernels
 #include "dynamics/simulation.h"
 #include "parallel.h"

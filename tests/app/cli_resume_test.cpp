@@ -1,0 +1,275 @@
+#include "cli.h"
+
+#include "store/checkpoint.h"
+#include "store/run_status.h"
+
+#include <chrono>
+#include <gmock/gmock.h>
+#include <random>
+#include <thread>
+
+// Runs that are interrupted, killed or starved of disk space, and go on.
+namespace lamella {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const char* const one_phase =
+    "fig3_oblate --set grid.nodes=24 --set run.end_time=8e-4 --set output.frames=9";
+const char* const two_phases = "fig9 --set grid.nodes=32 --set run.end_time=8e-5 "
+                               "--set output.frames=4 --set stretch.modulus=500";
+
+class Resume : public Cli {
+protected:
+  /// Without pictures.
+  Result run(const std::string& arguments) const {
+    return call(words("run --no-pictures " + arguments));
+  }
+
+  std::vector<fs::path> checkpoints_of(const fs::path& run) const {
+    std::vector<fs::path> files;
+    if (fs::exists(work() / run / "checkpoints"))
+      for (const auto& entry : fs::directory_iterator(work() / run / "checkpoints"))
+        files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
+  }
+
+  /// Waits until a run has stored so many checkpoints.
+  void wait_for_checkpoints(const fs::path& run, std::size_t count) const {
+    for (int tries = 0; tries < 2000 && checkpoints_of(run).size() < count; ++tries)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+
+  /// Stops a run after its first checkpoint, as a power failure does.
+  void cut_short(const std::string& arguments, int signal = SIGKILL) const {
+    const Program program(words("run --no-pictures " + arguments), setting_);
+    wait_for_checkpoints("run", 1);
+    program.signal(signal);
+    program.wait();
+  }
+
+  /// That two runs left the same numbers, to the last bit.
+  void expect_same_run(const fs::path& a, const fs::path& b) const {
+    for (const char* file : {"scene.toml", "history.csv", "events.csv", "frames/frames.hdf.series"})
+      EXPECT_EQ(text_of(work() / a / file), text_of(work() / b / file)) << file;
+    const auto frames = frames_of(work() / a);
+    EXPECT_EQ(frames.size(), frames_of(work() / b).size());
+    for (const fs::path& frame : frames)
+      EXPECT_TRUE(text_of(frame) == text_of(work() / b / "frames" / frame.filename())) << frame;
+    ASSERT_FALSE(checkpoints_of(a).empty() || checkpoints_of(b).empty());
+    const SimulationState end = read_checkpoint(checkpoints_of(a).back()).state,
+                          other = read_checkpoint(checkpoints_of(b).back()).state;
+    EXPECT_EQ(end.vesicle.phi, other.vesicle.phi);
+    EXPECT_EQ(end.stepper.increment, other.stepper.increment);
+    EXPECT_EQ(end.vesicle.psi, other.vesicle.psi);
+    EXPECT_EQ(end.vesicle.c, other.vesicle.c);
+  }
+
+  std::set<std::string> temporary_files_of(const fs::path& run) const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(work() / run))
+      if (entry.path().extension() == ".tmp") names.insert(entry.path().string());
+    return names;
+  }
+};
+
+TEST_F(Resume, goes_on_to_the_last_bit_after_an_interrupt) {
+  for (const std::string scene : {one_phase, two_phases}) {
+    ASSERT_EQ(run(scene + " -o whole --force").code, 0);
+    for (const int signal : {SIGINT, SIGTERM}) {
+      const Program program(words("run --no-pictures " + scene + " -o run --force"), setting_);
+      std::this_thread::sleep_for(std::chrono::milliseconds(signal == SIGINT ? 250 : 450));
+      program.signal(signal);
+      const Result result = program.wait();
+      if (result.code == 0) continue; // a fast machine
+      ASSERT_THAT(result.code, testing::AnyOf(75, 130)) << result.err;
+      if (result.code == 130) continue; // a slow one
+      EXPECT_EQ(read_status(work() / "run" / "status.toml").state, RunStatus::State::interrupted);
+      const Result resumed = run("--resume run --threads 1");
+      EXPECT_EQ(resumed.code, 0) << resumed.err;
+      expect_same_run("whole", "run");
+    }
+  }
+}
+
+TEST_F(Resume, survives_being_killed_fifty_times) {
+  const std::string command = std::string(one_phase) + " --checkpoint-every 0.02 --resume ";
+  ASSERT_EQ(run(command + "whole").code, 0);
+  std::mt19937 random(7);
+  int finished = 0;
+  for (int kills = 0; kills < 50;) {
+    const std::string name = "run" + std::to_string(finished);
+    const Program program(words("run --no-pictures " + command + name), setting_);
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(std::uniform_int_distribution(0, 200)(random)));
+    program.signal(SIGKILL);
+    const Result result = program.wait();
+    if (result.code == -SIGKILL) {
+      kills++;
+      continue;
+    }
+    ASSERT_EQ(result.code, 0) << result.err;
+    expect_same_run("whole", name);
+    EXPECT_THAT(temporary_files_of(name), IsEmpty());
+    finished++;
+  }
+  const std::string last = "run" + std::to_string(finished);
+  const Result result = run(command + last);
+  EXPECT_EQ(result.code, 0) << result.err;
+  expect_same_run("whole", last);
+  EXPECT_THAT(temporary_files_of(last), IsEmpty());
+}
+
+TEST_F(Resume, begins_again_where_there_is_no_checkpoint_yet) {
+  ASSERT_EQ(run(std::string(one_phase) + " -o whole").code, 0);
+  ASSERT_EQ(run(std::string(one_phase) + " -o run --checkpoint-every 0").code, 0);
+  fs::remove(work() / "run" / "status.toml");
+  fs::remove(work() / "run" / "history.csv");
+  write(work() / "run" / ".status.toml.123-4.tmp", "half");
+  write(work() / "run" / "frames" / ".frame_0003.hdf.123-5.tmp", "half");
+  EXPECT_EQ(run("--resume run").code, 0);
+  expect_same_run("whole", "run");
+  EXPECT_THAT(temporary_files_of("run"), IsEmpty());
+}
+
+TEST_F(Resume, falls_back_where_the_newest_checkpoint_is_damaged) {
+  ASSERT_EQ(run(std::string(one_phase) + " -o whole").code, 0);
+  const Program program(
+      words(std::string("run --no-pictures --checkpoint-every 0.05 -o run ") + one_phase),
+      setting_);
+  wait_for_checkpoints("run", 2);
+  program.signal(SIGKILL);
+  program.wait();
+  const fs::path newest = checkpoints_of("run").back();
+  fs::resize_file(newest, fs::file_size(newest) / 2);
+  const Result result = run("--resume run");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr(newest.filename().string()), HasSubstr("cut off"),
+                                HasSubstr("falling back to the state before")));
+  expect_same_run("whole", "run");
+}
+
+TEST_F(Resume, makes_checkpoints_on_demand_and_keeps_two) {
+  const Program program(words(std::string("run --no-pictures -o run ") + one_phase +
+                              " --set run.end_time=1 --set grid.nodes=32"),
+                        setting_);
+  for (int i = 0; i < 1000 && !fs::exists(work() / "run" / "history.csv"); i++)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::set<fs::path> seen;
+  for (int i = 0; i < 3; i++) {
+    const auto before = checkpoints_of("run");
+    program.signal(SIGUSR1);
+    for (int tries = 0; tries < 1000 && checkpoints_of("run") == before; tries++)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    for (const fs::path& file : checkpoints_of("run")) seen.insert(file);
+  }
+  program.interrupt();
+  EXPECT_EQ(program.wait().code, 75);
+  EXPECT_GE(seen.size(), 3u);
+  EXPECT_EQ(checkpoints_of("run").size(), 2u);
+}
+
+TEST_F(Resume, refuses_a_changed_scene_and_says_what_changed) {
+  cut_short(std::string(one_phase) + " -o run --checkpoint-every 0.02");
+  const Result result =
+      run("--resume run --set run.end_time=0.002 --set membrane.bending_modulus=2");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("the scene is not that of the run"),
+                    HasSubstr("[membrane] bending_modulus: 1 -> 2"),
+                    HasSubstr("[run] end_time: 0.0008 -> 0.002"), HasSubstr("--branch")));
+  EXPECT_EQ(run("--resume run").code, 0) << "it was left alone";
+}
+
+TEST_F(Resume, branches_off_with_a_changed_scene) {
+  const std::string limit = " --set numerics.max_time_step=2e-5"; // follows the end time otherwise
+  ASSERT_EQ(run(one_phase + limit + " -o short").code, 0);
+  const std::string before = text_of(work() / "short" / "history.csv");
+  const Result result = run("--resume short --branch -o long --set run.end_time=1e-3");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto history = read_history(work() / "long" / "history.csv");
+  EXPECT_EQ(history.front().time, 8e-4);
+  EXPECT_EQ(history.back().time, 1e-3);
+  EXPECT_LT(history.back().energy, history.front().energy);
+  EXPECT_EQ(text_of(work() / "short" / "history.csv"), before);
+  EXPECT_THAT(read_status(work() / "long" / "status.toml").origin, HasSubstr("short, t = 0.0008"));
+
+  EXPECT_EQ(run("--resume short --branch -o softer --set run.end_time=9e-4 "
+                "--set membrane.bending_modulus=0.5")
+                .code,
+            0);
+  const Result refused = run("--resume short --branch -o other --set grid.nodes=32");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("[grid] nodes: 24 -> 32"), HasSubstr("no branch")));
+  EXPECT_FALSE(fs::exists(work() / "other"));
+  EXPECT_THAT(run("--resume short --branch -o other").err, HasSubstr("set run.end_time beyond it"));
+}
+
+TEST_F(Resume, leaves_finished_runs_and_folders_in_use_alone) {
+  ASSERT_EQ(run(std::string(one_phase) + " -o run").code, 0);
+  const std::string summary = text_of(work() / "run" / "summary.txt");
+  const Result again = run("--resume run");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.out, HasSubstr("nothing is left to do"));
+  EXPECT_EQ(text_of(work() / "run" / "summary.txt"), summary);
+
+  const Program program(words(std::string("run --no-pictures -o busy --checkpoint-every 0.02 ") +
+                              one_phase + " --set run.end_time=1"),
+                        setting_);
+  wait_for_checkpoints("busy", 1);
+  Setting other = setting_;
+  other.folder = work() / "beside";
+  fs::create_directory(other.folder);
+  const Result refused = Program(words("run --resume ../busy"), other).wait();
+  program.signal(SIGKILL);
+  program.wait();
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("another lamella is writing to this folder"));
+}
+
+TEST_F(Resume, goes_on_when_the_disk_has_room_again) {
+  ASSERT_EQ(run(std::string(one_phase) + " -o whole").code, 0);
+  const std::string command =
+      std::string("run --no-pictures -o run --checkpoint-every 0 ") + one_phase;
+  setting_.largest_file = 30000; // less than a frame
+  const Result full = call(words(command));
+  EXPECT_EQ(full.code, 4);
+  EXPECT_THAT(full.err, AllOf(HasSubstr("File too large"), HasSubstr("--resume run")));
+  setting_.largest_file = RLIM_INFINITY;
+  EXPECT_EQ(run("--resume run").code, 0);
+  expect_same_run("whole", "run");
+}
+
+TEST_F(Resume, keeps_the_last_good_checkpoint_on_a_full_disk) {
+  const fs::path disk = work() / "disk";
+  fs::create_directory(disk);
+  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=3m") != 0)
+    GTEST_SKIP() << "only root can mount a small disk";
+  ASSERT_EQ(run(std::string(one_phase) + " -o whole").code, 0);
+  const std::string many = " --set output.frames=9 --checkpoint-every 0.01";
+  const Result full = run(std::string(one_phase) + many + " -o disk/run");
+  if (full.code == 4) {
+    EXPECT_THAT(full.err,
+                AllOf(HasSubstr("No space left on device"), HasSubstr("--resume disk/run")));
+    EXPECT_THAT(temporary_files_of("disk/run"), IsEmpty());
+    EXPECT_EQ(mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, "size=64m"), 0);
+    EXPECT_EQ(run("--resume disk/run").code, 0);
+    expect_same_run("whole", "disk/run");
+  } else {
+    ADD_FAILURE() << "the disk was large enough: " << full.err;
+  }
+  umount2(disk.c_str(), MNT_DETACH);
+}
+
+TEST_F(Resume, says_what_is_missing) {
+  EXPECT_THAT(run("--resume nowhere").err, HasSubstr("there is no run to resume"));
+  EXPECT_THAT(run("").err, HasSubstr("scene is required"));
+  EXPECT_THAT(run("fig3_oblate --resume run -o other").err, HasSubstr("--branch"));
+  EXPECT_THAT(run("fig3_oblate --branch").err, HasSubstr("--branch requires"));
+}
+
+} // namespace
+} // namespace lamella
