@@ -362,7 +362,7 @@ void write_checkpoint(const std::filesystem::path& file, const Frame& frame,
   Tables tables = tables_of(checkpoint.state);
   const Items items = items_of(checkpoint, tables);
   write_h5(file, size_of(items) + 3 * frame.phi.size() * sizeof(double), [&](hid_t root) {
-    put_frame(root, frame, false);
+    put_frame(root, frame);
     const H5Handle lamella = owned(H5Gopen2(root, "lamella", H5P_DEFAULT));
     const H5Handle group = create_group(lamella, group_name);
     write_attribute(group, "format", std::array{format});

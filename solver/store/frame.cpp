@@ -19,8 +19,7 @@ namespace {
 constexpr int most_nodes_along_axis = 1024;
 constexpr std::size_t most_nodes = std::size_t(1) << 28;
 constexpr int most_cells = 1'000'000;
-constexpr std::size_t most_inflation = 1100; // deflate reaches 1032
-constexpr int deflate_level = 1;
+constexpr std::size_t most_inflation = 1100; // of frames that were deflated, which reaches 1032
 constexpr hsize_t chunk_planes = 8;
 
 /// Values at the nodes, and the name of their data array.
@@ -44,10 +43,6 @@ void write_field(hid_t group, const char* name, const Grid& grid, const std::vec
   const std::array<hsize_t, 3> chunk{std::min(size[0], chunk_planes), size[1], size[2]};
   const H5Handle properties = creation(H5P_DATASET_CREATE);
   required(H5Pset_chunk(properties, 3, chunk.data()));
-  if (compressed) {
-    required(H5Pset_shuffle(properties));
-    required(H5Pset_deflate(properties, deflate_level));
-  }
   const H5Handle space = owned(H5Screate_simple(3, size.data(), nullptr));
   const H5Handle data =
       owned(H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT));
@@ -55,10 +50,10 @@ void write_field(hid_t group, const char* name, const Grid& grid, const std::vec
 }
 
 /// Where there are several fields, says which of them readers show first.
-void write_fields(hid_t points, const Frame& frame, bool compressed) {
+void write_fields(hid_t points, const Frame& frame) {
   for (const NodalField& field : fields)
     if (const std::vector<double>& values = frame.*field.values; !values.empty())
-      write_field(points, field.name, frame.grid, values, compressed);
+      write_field(points, field.name, frame.grid, values);
   if (!frame.psi.empty() || !frame.c.empty())
     write_attribute(points, "Scalars", fields.front().name);
 }
@@ -88,7 +83,7 @@ void check_frame(const std::filesystem::path& file, const Frame& frame) {
   if (!std::isfinite(frame.time)) refuse(fmt::format("the time is {}", frame.time));
 }
 
-void put_frame(hid_t root, const Frame& frame, bool compressed) {
+void put_frame(hid_t root, const Frame& frame) {
   const Grid& grid = frame.grid;
   const H5Handle vtk = create_group(root, "VTKHDF");
   write_attribute(vtk, "Version", std::array{1, 0});
@@ -101,14 +96,14 @@ void put_frame(hid_t root, const Frame& frame, bool compressed) {
   write_attribute(vtk, "Spacing", Vec3{grid.spacing, grid.spacing, grid.spacing});
   write_attribute(vtk, "Direction", std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
   const H5Handle points = create_group(vtk, "PointData");
-  write_fields(points, frame, compressed);
+  write_fields(points, frame);
   const H5Handle lamella = create_group(root, "lamella");
   write_attribute(lamella, "time", std::array{frame.time});
 }
 
 void write_frame(const std::filesystem::path& file, const Frame& frame) {
   check_frame(file, frame);
-  write_h5(file, frame.phi.size(), [&](hid_t root) { put_frame(root, frame, true); });
+  write_h5(file, frame.phi.size(), [&](hid_t root) { put_frame(root, frame); });
 }
 
 namespace {

@@ -91,7 +91,7 @@ protected:
   std::string message_for(const std::function<void(hid_t group)>& fill) const {
     Simulation sim(one_phase());
     write_h5(file(), 1 << 20, [&](hid_t root) {
-      put_frame(root, sim.frame(), false);
+      put_frame(root, sim.frame());
       const H5Handle lamella = owned(H5Gopen2(root, "lamella", H5P_DEFAULT));
       fill(create_group(lamella, "checkpoint"));
     });
