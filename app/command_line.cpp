@@ -51,6 +51,11 @@ constexpr const char* render_notes = R"(Examples:
   lamella render oblate --times 0,1e-4,4e-4,1.6e-3 --format pdf
   lamella render oblate --color K_M --elevation 60)";
 
+constexpr const char* inspect_notes = R"(Examples:
+  lamella inspect oblate                              the run in a folder
+  lamella inspect oblate/frames/frame_0004.hdf        a stored state
+  lamella inspect oblate/checkpoints/checkpoint_00000087.hdf)";
+
 constexpr const char* scenes_notes = R"(Examples:
   lamella scenes                              the list
   lamella scenes fig3_oblate > vesicle.toml   a scene to start your own from)";
@@ -186,6 +191,15 @@ void add_render(CLI::App& app, RenderCommandOptions& options) {
   add_backend(command, options.pictures.backend);
 }
 
+void add_inspect(CLI::App& app, std::filesystem::path& what) {
+  CLI::App& inspect =
+      *app.add_subcommand("inspect", "Tell what is in a run's folder, a frame or a checkpoint");
+  inspect.footer(inspect_notes);
+  inspect.add_option("what", what, "A run's folder, or a file of it (.hdf)")
+      ->required()
+      ->type_name("");
+}
+
 void add_scenes(CLI::App& app, std::string& name) {
   CLI::App& scenes = *app.add_subcommand("scenes", "List the built-in scenes, or print one");
   scenes.footer(scenes_notes);
@@ -299,7 +313,9 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   ExtremesOptions extremes_options;
   add_run(app, run_options);
   add_render(app, render_options);
+  std::filesystem::path inspected;
   add_scenes(app, scene);
+  add_inspect(app, inspected);
   add_tradeoff(app, tradeoff_options);
   add_extremes(app, extremes_options);
 
@@ -315,6 +331,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   }
   if (app.got_subcommand("run")) return [=] { return run(run_options); };
   if (app.got_subcommand("render")) return [=] { return redraw(render_options); };
+  if (app.got_subcommand("inspect")) return [=] { return inspect(inspected); };
   if (app.got_subcommand("tradeoff")) return [=] { return tradeoff(tradeoff_options); };
   if (app.got_subcommand("extremes")) return [=] { return extremes(extremes_options); };
   return [=] { return show_scenes(scene); };

@@ -38,6 +38,10 @@ std::vector<std::filesystem::path> draw_pictures(const RenderCommandOptions& opt
 /// The same as a command: lists the files. Returns an ExitCode.
 int redraw(const RenderCommandOptions& options);
 
+/// Tells a person what is in a run's folder, a frame or a checkpoint. Returns an ExitCode; throws
+/// UsageError, StoreError.
+int inspect(const std::filesystem::path& what);
+
 /// Lists the built-in scenes, or prints one. Returns an ExitCode; throws SceneError.
 int show_scenes(const std::string& name);
 

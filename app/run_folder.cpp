@@ -112,11 +112,6 @@ std::vector<fs::path> numbered_files(const fs::path& folder, const char* names) 
   return files;
 }
 
-/// In the order of time.
-std::vector<fs::path> stored_frames(const fs::path& folder) {
-  return numbered_files(folder / frames_folder, frame_names);
-}
-
 /// Why the run in a folder cannot go on from a checkpoint; empty where it can.
 std::string misfit(const fs::path& folder, const Checkpoint& checkpoint) {
   const auto is_short = [&](const char* file, long size) {
@@ -197,7 +192,8 @@ RunFolder::RunFolder(const fs::path& folder, const Simulation& now, const Checkp
       series_.push_back({frame_file(i), from->frame_times[i]});
     open_tables(now, from);
     for (const fs::path& file : stored_frames(folder))
-      if (std::ranges::count(series_, file.filename().string(), &SeriesEntry::file) == 0) fs::remove(file);
+      if (std::ranges::count(series_, file.filename().string(), &SeriesEntry::file) == 0)
+        fs::remove(file);
     for (const fs::path& file : stored_checkpoints(folder))
       if (!from || file.filename() > checkpoint_file(from->state.steps)) fs::remove(file);
     if (from) write_series(folder / frames_folder / series_file, series_);
@@ -281,6 +277,11 @@ void remove_unfinished_files(const fs::path& folder) {
     erase_unfinished(folder / frames_folder, own_frames);
     erase_unfinished(folder / checkpoints_folder, own_checkpoints);
   });
+}
+
+std::vector<fs::path> stored_frames(const fs::path& folder) {
+  return or_store_error(folder, "cannot be read",
+                        [&] { return numbered_files(folder / frames_folder, frame_names); });
 }
 
 std::vector<fs::path> stored_checkpoints(const fs::path& folder) {

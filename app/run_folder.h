@@ -97,7 +97,8 @@ std::optional<Checkpoint>
 newest_checkpoint(const std::filesystem::path& folder,
                   const std::function<void(const std::string&)>& complain);
 
-/// The checkpoints of a run, the oldest first. Throws StoreError.
+/// The frames and the checkpoints of a run, the oldest first. Throws StoreError.
+std::vector<std::filesystem::path> stored_frames(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> stored_checkpoints(const std::filesystem::path& folder);
 
 /// As status.toml says; of a run that has none, that it is running. Throws StoreError.

@@ -72,7 +72,6 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Ves
 Vesicle::State Vesicle::state() const {
   State state = origin_;
   state.constraints = constraints_.state();
-  if (phases_) state.held = phases_->held().parts();
   if (!stretch_) return state;
   const std::span<const double> c = stretch_->c().coefficients();
   state.c.assign(c.begin(), c.end());
@@ -104,6 +103,7 @@ void Vesicle::note_origin() {
   if (!phases_) return;
   const std::span<const double> psi = phases_->psi().coefficients();
   origin_.psi.assign(psi.begin(), psi.end());
+  origin_.held = phases_->held().parts();
 }
 
 /// A sphere cannot lose volume at a given area, and nothing in its curvature says where to: the

@@ -59,6 +59,21 @@ Row row_of(CriticalPoint& p) {
           {"radius", &p.radius}};
 }
 
+/// HeldAreas::Part, in numbers.
+struct HeldArea {
+  int is_Ld = 0;
+  Vec3 center{};
+  double target = 0;
+};
+
+Row row_of(HeldArea& a) {
+  return {{"is_Ld", &a.is_Ld},
+          {"x", &a.center[0]},
+          {"y", &a.center[1]},
+          {"z", &a.center[2]},
+          {"target", &a.target}};
+}
+
 std::vector<std::string> columns_of(const Row& row) {
   std::vector<std::string> columns;
   for (const Field& field : row) columns.emplace_back(field.column);
@@ -103,13 +118,16 @@ bool take(const Table& table, Record like, std::vector<Record>& records) {
 
 /// The parts of a state that are records.
 struct Tables {
-  Table measures, events, domains, inside, outside;
+  Table measures, events, domains, held, inside, outside;
 };
 
 Tables tables_of(const SimulationState& s) {
-  return {table_of({s.measures}, s.measures), table_of(s.events, Event{}),
-          table_of(s.domains, Domain{true}), table_of(s.inside, CriticalPoint{}),
-          table_of(s.outside, CriticalPoint{})};
+  std::vector<HeldArea> held;
+  for (const HeldAreas::Part& part : s.vesicle.held)
+    held.push_back({part.is_Ld, part.center, part.target});
+  return {table_of({s.measures}, s.measures),  table_of(s.events, Event{}),
+          table_of(s.domains, Domain{true}),   table_of(held, HeldArea{}),
+          table_of(s.inside, CriticalPoint{}), table_of(s.outside, CriticalPoint{})};
 }
 
 bool take(const Tables& tables, SimulationState& s) {
@@ -118,6 +136,10 @@ bool take(const Tables& tables, SimulationState& s) {
       measures.size() != 1)
     return false;
   s.measures = measures.front();
+  std::vector<HeldArea> held;
+  if (!take(tables.held, HeldArea{}, held)) return false;
+  for (const HeldArea& area : held)
+    s.vesicle.held.push_back({area.is_Ld != 0, area.center, area.target});
   return take(tables.events, Event{}, s.events) && take(tables.domains, Domain{true}, s.domains) &&
          take(tables.inside, CriticalPoint{}, s.inside) &&
          take(tables.outside, CriticalPoint{}, s.outside);
@@ -155,6 +177,7 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"measures", &tables.measures},
               {"events", &tables.events},
               {"domains", &tables.domains},
+              {"held_areas", &tables.held},
               {"places/inside", &tables.inside},
               {"places/outside", &tables.outside},
               {"membrane/phi", &v.phi},

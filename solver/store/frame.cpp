@@ -37,8 +37,8 @@ bool all_finite(std::span<const double> values) {
   return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
 }
 
-void write_field(hid_t group, const char* name, const Grid& grid, const std::vector<double>& values,
-                 bool compressed) {
+void write_field(hid_t group, const char* name, const Grid& grid,
+                 const std::vector<double>& values) {
   const std::array<hsize_t, 3> size{hsize_t(grid.nz()), hsize_t(grid.ny()), hsize_t(grid.nx())};
   const std::array<hsize_t, 3> chunk{std::min(size[0], chunk_planes), size[1], size[2]};
   const H5Handle properties = creation(H5P_DATASET_CREATE);

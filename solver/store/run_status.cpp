@@ -35,7 +35,8 @@ void write_status(const std::filesystem::path& file, const RunStatus& s) {
   text += fmt::format("time = {:#}\nwall_seconds = {:.1f}\nthreads = {}\nscene_hash = {}\n"
                       "program = {}\narithmetic = {}\n",
                       s.time, s.wall_seconds, s.threads, lamella::quoted(s.scene_hash),
-                      lamella::quoted(fmt::format("lamella {}", version())), lamella::quoted(arithmetic()));
+                      lamella::quoted(fmt::format("lamella {}", version())),
+                      lamella::quoted(arithmetic()));
   write_text_atomically(file, text);
 }
 

@@ -264,6 +264,25 @@ TEST_F(Resume, keeps_the_last_good_checkpoint_on_a_full_disk) {
   umount2(disk.c_str(), MNT_DETACH);
 }
 
+TEST_F(Resume, tells_what_is_stored) {
+  ASSERT_EQ(run(std::string(one_phase) + " -o run").code, 0);
+  const auto inspect = [&](const std::string& what) { return call({"inspect", what}); };
+  EXPECT_THAT(inspect("run").out,
+              AllOf(HasSubstr("fig3_oblate: Oblate to discocyte"), HasSubstr("24 x 24 x 24 nodes"),
+                    HasSubstr("finished in"), HasSubstr("0.0008 of 0.0008"),
+                    HasSubstr("9, to frame_"), HasSubstr("1, to checkpoint_")));
+  EXPECT_THAT(inspect("run/frames/frame_0002.hdf").out,
+              AllOf(HasSubstr("a frame"), HasSubstr("0.0002"), HasSubstr("phi (the membrane)")));
+  EXPECT_THAT(inspect(checkpoints_of("run").back()).out,
+              AllOf(HasSubstr("a checkpoint"), HasSubstr("0.0008 of 0.0008"), HasSubstr("energy"),
+                    HasSubstr("kernels")));
+  for (const char* what : {"nothing", ".", "run/history.csv"}) {
+    const Result result = inspect(what);
+    EXPECT_THAT(result.code, testing::AnyOf(2, 4)) << what;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  }
+}
+
 TEST_F(Resume, says_what_is_missing) {
   EXPECT_THAT(run("--resume nowhere").err, HasSubstr("there is no run to resume"));
   EXPECT_THAT(run("").err, HasSubstr("scene is required"));

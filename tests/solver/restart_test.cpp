@@ -106,6 +106,11 @@ TEST(Restart, IsExactWithStretch) {
   EXPECT_EQ(restarts_that_agree(scene, 24, at_steps({1, 4, 13})), 3);
 }
 
+TEST(Restart, IsExactWithDomainsThatAreHeld) {
+  Scene scene = builtin_on("fig15a", 40);
+  EXPECT_EQ(restarts_that_agree(scene, 16, at_steps({1, 4, 9})), 3);
+}
+
 TEST(Restart, IsExactRightAfterANeckParted) {
   Scene scene = builtin_on("fig6b", 48);
   scene.end_time = 6e-5;

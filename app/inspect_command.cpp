@@ -1,0 +1,155 @@
+#include "commands.h"
+
+#include "error.h"
+#include "exit_code.h"
+#include "progress.h"
+#include "run_folder.h"
+#include "scene/scene_toml.h"
+#include "usage_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lamella {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string size_text(std::uintmax_t bytes) {
+  if (bytes < 10'000) return fmt::format("{} bytes", bytes);
+  if (bytes < 10'000'000) return fmt::format("{:.0f} kB", double(bytes) / 1e3);
+  return fmt::format("{:.0f} MB", double(bytes) / 1e6);
+}
+
+std::string row(std::string_view name, const std::string& value) {
+  return fmt::format("{:<14} {}\n", name, value);
+}
+
+std::string grid_text(const Grid& grid) {
+  return fmt::format("{} x {} x {} nodes, spacing {:.5g}", grid.nx(), grid.ny(), grid.nz(),
+                     grid.spacing);
+}
+
+std::string fields_text(const Frame& frame) {
+  std::string text = "phi (the membrane)";
+  if (!frame.psi.empty()) text += ", psi (phases)";
+  if (!frame.c.empty()) text += ", c (area per lipid)";
+  return text;
+}
+
+std::string scene_rows(const Scene& scene) {
+  return row("scene",
+             scene.title.empty() ? scene.name : fmt::format("{}: {}", scene.name, scene.title)) +
+         row("grid", grid_text(scene.grid())) +
+         row("phases", scene.has_phases() ? "Ld and Lo" : "one");
+}
+
+std::string measures_rows(const Measures& m) {
+  std::string text =
+      row("energy", fmt::format("{:.8g}, of bending {:.8g}", m.energy, m.bending_energy));
+  if (m.phases)
+    text += row("", fmt::format("of the phase boundary {:.8g}, of its length {:.6g}",
+                                m.phases->line_energy, m.phases->line_length));
+  text += row("area", fmt::format("{:.8g}", m.area));
+  text += row("volume", fmt::format("{:.8g}, reduced {:.6g}", m.volume, m.reduced_volume));
+  return text + row("topology", fmt::format("{} component{}, genus {}", m.components,
+                                            m.components == 1 ? "" : "s", m.genus));
+}
+
+std::string events_rows(std::span<const Event> events, double spacing) {
+  if (events.empty()) return row("events", "none");
+  std::string text = row("events", std::to_string(events.size()));
+  for (const Event& event : events) text += fmt::format("  {}\n", to_text(event, spacing));
+  return text;
+}
+
+std::string frame_rows(const fs::path& file, const Frame& frame) {
+  std::string text = row("time", fmt::format("{:.8g}", frame.time)) +
+                     row("grid", grid_text(frame.grid)) + row("fields", fields_text(frame));
+  if (frame.cells != std::array<int, 3>{})
+    text += row("box", fmt::format("moved by ({}, {}, {}) cells", frame.cells[0], frame.cells[1],
+                                   frame.cells[2]));
+  return text + row("size", size_text(fs::file_size(file)));
+}
+
+std::string checkpoint_text(const fs::path& file, const Checkpoint& c) {
+  const Scene scene = parse_scene(c.scene, "the scene in " + file.string());
+  return fmt::format("{}: a checkpoint, and a frame\n", file.string()) + scene_rows(scene) +
+         row("time", fmt::format("{:.8g} of {:g}, after {} steps in {}", c.state.measures.time,
+                                 scene.end_time, c.state.steps, duration_text(c.wall_seconds))) +
+         row("next step", fmt::format("about {:.3g}", c.state.last_dt)) +
+         measures_rows(c.state.measures) + events_rows(c.state.events, scene.grid().spacing) +
+         row("written by", fmt::format("lamella {}, {}, {} thread{}", c.program, c.arithmetic,
+                                       c.threads, c.threads == 1 ? "" : "s")) +
+         row("scene hash", hash_of(c.scene)) + row("size", size_text(fs::file_size(file)));
+}
+
+bool is_checkpoint(const fs::path& file) {
+  return file.filename().string().starts_with("checkpoint_");
+}
+
+std::string file_text(const fs::path& file) {
+  if (is_checkpoint(file)) return checkpoint_text(file, read_checkpoint(file));
+  return fmt::format("{}: a frame\n", file.string()) + frame_rows(file, read_frame(file));
+}
+
+std::string files_row(const char* name, const std::vector<fs::path>& files) {
+  if (files.empty()) return row(name, "none");
+  std::uintmax_t bytes = 0;
+  for (const fs::path& file : files) bytes += fs::file_size(file);
+  return row(name, fmt::format("{}, to {}, {}", files.size(), files.back().filename().string(),
+                               size_text(bytes)));
+}
+
+std::string state_text(const RunStatus& s) {
+  switch (s.state) {
+  case RunStatus::State::running:
+    return "running, or killed";
+  case RunStatus::State::interrupted:
+    return fmt::format("interrupted after {}", duration_text(s.wall_seconds));
+  case RunStatus::State::finished:
+    return fmt::format("finished in {}{}{}", duration_text(s.wall_seconds),
+                       s.reason.empty() ? "" : ": ", s.reason);
+  case RunStatus::State::stopped:
+    return fmt::format("could not go on after {}: {}", duration_text(s.wall_seconds), s.reason);
+  }
+  return {};
+}
+
+std::string folder_text(const fs::path& folder) {
+  if (!can_be_resumed(folder))
+    throw UsageError(folder.string() + ": neither a run nor a frame is there");
+  const Scene scene = read_scene(folder / "scene.toml");
+  const RunStatus status = status_of_run(folder);
+  std::string text = fmt::format("{}: a run\n", folder.string()) + scene_rows(scene);
+  text += row("state", state_text(status));
+  if (!status.origin.empty()) text += row("branch of", status.origin);
+  if (const std::vector<Measures> rows = read_history(folder / "history.csv"); !rows.empty()) {
+    text += row("time", fmt::format("{:.8g} of {:g}, after {} steps", rows.back().time,
+                                    scene.end_time, rows.size() - 1));
+    text += row("energy", fmt::format("{:.8g} -> {:.8g}", rows.front().energy, rows.back().energy));
+    text += row("reduced volume", fmt::format("{:.6g} -> {:.6g}", rows.front().reduced_volume,
+                                              rows.back().reduced_volume));
+    text += row("topology", fmt::format("{} component{}, genus {}", rows.back().components,
+                                        rows.back().components == 1 ? "" : "s", rows.back().genus));
+  }
+  text += events_rows(read_events(folder / "events.csv"), scene.grid().spacing);
+  text += files_row("frames", stored_frames(folder));
+  const std::vector<fs::path> checkpoints = stored_checkpoints(folder);
+  text += files_row("checkpoints", checkpoints);
+  const bool is_open =
+      status.state == RunStatus::State::running || status.state == RunStatus::State::interrupted;
+  return is_open ? text + row("go on with", "lamella run --resume " + folder.string()) : text;
+}
+
+} // namespace
+
+int inspect(const fs::path& what) {
+  if (!fs::exists(what)) throw UsageError(what.string() + ": no such file or folder");
+  say(fs::is_directory(what) ? folder_text(what) : file_text(what));
+  return success;
+}
+
+} // namespace lamella
