@@ -3,7 +3,7 @@
 // groups, X being vesicle (all of them), source or dynamics (those of vtkVesicleSource,
 // vtkVesicleDynamics).
 #include "labels.h"
-#include "scene/keys.h"
+#include "names.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,22 +44,6 @@ std::string escaped(std::string_view text) {
       out += c;
   }
   return out;
-}
-
-/// area_difference: AreaDifference.
-std::string camel(std::string_view name) {
-  std::string out;
-  bool upper = true;
-  for (const char c : name) {
-    if (c != '_') out += upper ? char(std::toupper(c)) : c;
-    upper = c == '_';
-  }
-  return out;
-}
-
-std::string property_name(const Key& key) {
-  const bool bare = is_one_of(key.section, {"grid", "membrane", "run", "numerics"});
-  return (bare ? "" : camel(key.section)) + camel(key.name);
 }
 
 /// Shows a property only where it counts.

@@ -1,0 +1,131 @@
+#include "widgets/pqAbort.h"
+
+#include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
+#include <pqPipelineSource.h>
+#include <pqProgressManager.h>
+#include <pqProgressWidget.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkAlgorithm.h>
+#include <vtkCommand.h>
+#include <vtkSMProxy.h>
+
+#include <QApplication>
+#include <QEvent>
+#include <QOpenGLWidget>
+#include <QToolButton>
+#include <QWindow>
+
+namespace
+{
+constexpr int Pause = 50; // milliseconds between looking for events
+
+pqProgressManager* ProgressManager()
+{
+  return pqApplicationCore::instance()->getProgressManager();
+}
+
+bool IsAbortButton(const QObject* object)
+{
+  const auto* widget = qobject_cast<const pqProgressWidget*>(object->parent());
+  return widget && widget->abortButton() == object;
+}
+
+bool IsOfMouseButton(const QEvent& event)
+{
+  return event.type() == QEvent::MouseButtonPress || event.type() == QEvent::MouseButtonRelease ||
+    event.type() == QEvent::MouseMove;
+}
+
+/** Would act on ParaView's objects, which are at work. */
+bool Acts(const QEvent& event)
+{
+  switch (event.type())
+  {
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonRelease:
+    case QEvent::MouseButtonDblClick:
+    case QEvent::MouseMove:
+    case QEvent::Wheel:
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease:
+    case QEvent::Shortcut:
+    case QEvent::ShortcutOverride:
+    case QEvent::ContextMenu:
+    case QEvent::TouchBegin:
+    case QEvent::TouchUpdate:
+    case QEvent::TouchEnd:
+    case QEvent::DragEnter:
+    case QEvent::Drop:
+    case QEvent::Close:
+    case QEvent::Timer: // goes off again later
+      return true;
+    default:
+      return false;
+  }
+}
+}
+
+pqAbort::pqAbort(QObject* parent)
+  : QObject(parent)
+{
+  auto* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::sourceAdded, this, &pqAbort::watch);
+  for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
+  {
+    this->watch(source);
+  }
+  QObject::connect(ProgressManager(), &pqProgressManager::abort, this, [this] { this->Aborted = true; });
+}
+
+void pqAbort::watch(pqPipelineSource* source)
+{
+  auto* algorithm = vtkAlgorithm::SafeDownCast(source->getProxy()->GetClientSideObject());
+  if (algorithm &&
+    (algorithm->IsA("vtkVesiclePipeline") || algorithm->IsA("vtkVesicleDynamics")))
+  {
+    pqCoreUtilities::connect(
+      algorithm, vtkCommand::ProgressEvent, this, SLOT(onProgress(vtkObject*)));
+    pqCoreUtilities::connect(algorithm, vtkCommand::EndEvent, this, SLOT(onEnd()));
+  }
+}
+
+void pqAbort::onProgress(vtkObject* algorithm)
+{
+  ProgressManager()->setEnableAbort(true);
+  if (!this->SinceEvents.isValid() || this->SinceEvents.elapsed() >= Pause)
+  {
+    this->letEventsThrough();
+    this->SinceEvents.start();
+  }
+  if (this->Aborted)
+  {
+    static_cast<vtkAlgorithm*>(algorithm)->AbortExecuteOn();
+  }
+}
+
+void pqAbort::onEnd()
+{
+  this->Aborted = false;
+  ProgressManager()->setEnableAbort(false);
+}
+
+void pqAbort::letEventsThrough()
+{
+  const bool before = ProgressManager()->unblockEvents(true); // this filter is in its place
+  qApp->installEventFilter(this);
+  QCoreApplication::processEvents(QEventLoop::ExcludeSocketNotifiers);
+  qApp->removeEventFilter(this);
+  ProgressManager()->unblockEvents(before);
+}
+
+bool pqAbort::eventFilter(QObject* receiver, QEvent* event)
+{
+  if (IsOfMouseButton(*event) && (qobject_cast<QWindow*>(receiver) || IsAbortButton(receiver)))
+  {
+    return false; // a window hands it on to the widget below
+  }
+  return Acts(*event) ||
+    (event->type() == QEvent::Paint && qobject_cast<QOpenGLWidget*>(receiver)); // draws data
+}

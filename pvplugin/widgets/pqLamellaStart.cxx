@@ -1,0 +1,91 @@
+#include "widgets/pqLamellaStart.h"
+
+#include "widgets/pqAbort.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqRenderView.h>
+#include <pqRepresentation.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkSMTransferFunctionManager.h>
+
+#include <array>
+#include <cstring>
+
+namespace
+{
+constexpr std::array<double, 3> Aside{ 0.4, -0.8, 0.45 }, Up{ 0, 0, 1 };
+
+/** A view that shows nothing, and looks along z as it was made to. */
+bool IsUntouched(pqView& view)
+{
+  double position[3], focus[3];
+  vtkSMPropertyHelper(view.getProxy(), "CameraPosition").Get(position, 3);
+  vtkSMPropertyHelper(view.getProxy(), "CameraFocalPoint").Get(focus, 3);
+  return view.getNumberOfVisibleDataRepresentations() == 0 && position[0] == focus[0] &&
+    position[1] == focus[1] && position[2] > focus[2];
+}
+
+bool IsLegendOfPhases(vtkSMProxy& representation)
+{
+  if (std::strcmp(representation.GetXMLName(), "ScalarBarWidgetRepresentation") != 0)
+  {
+    return false;
+  }
+  vtkSMProxy* table = vtkSMPropertyHelper(&representation, "LookupTable").GetAsProxy();
+  return table &&
+    vtkNew<vtkSMTransferFunctionManager>()->GetColorTransferFunction(
+      "psi", representation.GetSessionProxyManager()) == table;
+}
+}
+
+pqLamellaStart::pqLamellaStart(QObject* parent)
+  : QObject(parent)
+{
+}
+
+void pqLamellaStart::startup()
+{
+  this->Abort = new pqAbort(this);
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::representationAdded, this, &pqLamellaStart::look);
+}
+
+void pqLamellaStart::shutdown()
+{
+  delete this->Abort;
+  this->Abort = nullptr;
+}
+
+void pqLamellaStart::look(pqRepresentation* representation)
+{
+  if (IsLegendOfPhases(*representation->getProxy()))
+  {
+    for (const char* labels : { "DrawTickLabels", "DrawTickMarks", "AddRangeLabels" })
+    {
+      vtkSMPropertyHelper(representation->getProxy(), labels).Set(0); // Ld and Lo say all
+    }
+    representation->getProxy()->UpdateVTKObjects();
+    return;
+  }
+  auto* view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  const bool membrane =
+    std::strcmp(representation->getProxy()->GetXMLName(), "MembraneRepresentation") == 0;
+  if (!membrane || !view || !IsUntouched(*view))
+  {
+    return;
+  }
+  vtkSMProxy* proxy = view->getProxy();
+  double focus[3];
+  vtkSMPropertyHelper(proxy, "CameraFocalPoint").Get(focus, 3);
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    vtkSMPropertyHelper(proxy, "CameraPosition").Set(axis, focus[axis] + Aside[axis]);
+  }
+  vtkSMPropertyHelper(proxy, "CameraViewUp").Set(Up.data(), 3);
+  proxy->UpdateVTKObjects(); // Apply then sets the distance
+}
