@@ -24,6 +24,7 @@ enum Port
   BoundaryPort,
   HistoryPort,
   LevelSetPort,
+  EventsPort,
   NumberOfPorts
 };
 
@@ -64,7 +65,7 @@ vtkVesiclePipeline::~vtkVesiclePipeline() = default;
 
 int vtkVesiclePipeline::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  const char* types[] = { "vtkPolyData", "vtkPolyData", "vtkTable", "vtkImageData" };
+  const char* types[] = { "vtkPolyData", "vtkPolyData", "vtkTable", "vtkImageData", "vtkTable" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
@@ -137,6 +138,7 @@ int vtkVesiclePipeline::RequestData(
     this->UpdateRun(RequestedTime(*request, *output));
   }
   vtkTable::GetData(output, HistoryPort)->ShallowCopy(this->GetRun()->GetOutputDataObject(1));
+  vtkTable::GetData(output, EventsPort)->ShallowCopy(this->GetRun()->GetOutputDataObject(2));
   auto* image = vtkImageData::SafeDownCast(this->GetRun()->GetOutputDataObject(0));
   if (image->GetNumberOfPoints() > 0) // else the run has said what is wrong
   {

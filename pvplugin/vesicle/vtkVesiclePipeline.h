@@ -11,6 +11,7 @@
  * | 1 phase boundary | vtkPolyData  | lines, as of vtkPhaseBoundary; empty with one phase |
  * | 2 history        | vtkTable     | a row for each step until this time |
  * | 3 level set      | vtkImageData | phi, psi, c |
+ * | 4 events         | vtkTable     | a row for each event until this time |
  *
  * Field data of outputs 0 and 3 are the measures of the state. Progress is that towards the time asked
  * for; aborted, the outputs are those of the time reached. All of it is on the first of several pieces.
@@ -52,7 +53,7 @@ protected:
   vtkVesiclePipeline();
   ~vtkVesiclePipeline() override;
 
-  /** The vesicle over time: an image on its first output port, its history on the second. */
+  /** The vesicle over time: an image, its history, its events on its output ports. */
   virtual vtkAlgorithm* GetRun() = 0;
   /** Passes parameters on to the run. Throws std::exception where they make none. */
   virtual void Prepare() {}

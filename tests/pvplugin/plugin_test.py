@@ -37,7 +37,7 @@ class Proxies(Session):
     def test_with_defaults(self):
         vesicle = simple.Vesicle()
         self.update(vesicle)
-        for port, kind in enumerate(["vtkPolyData", "vtkPolyData", "vtkTable", "vtkImageData"]):
+        for port, kind in enumerate(["vtkPolyData", "vtkPolyData", "vtkTable", "vtkImageData", "vtkTable"]):
             self.assertEqual(vesicle.GetDataInformation(port).GetDataSetTypeAsString(), kind)
         self.update(simple.VesicleScene(FileName="sphere"))
         shape = simple.VesicleShape()
