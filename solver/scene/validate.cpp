@@ -53,6 +53,7 @@ public:
       ramp("area_difference", scene_.area_difference.ramp);
     spontaneous_curvatures();
     pressure();
+    if (scene_.has_phases()) sphere_can_leave();
   }
 
 private:
@@ -159,6 +160,15 @@ private:
              "not on a torus yet; allowed: \"none\" with kind = \"torus\" in [shape]");
     directions();
     bulge();
+  }
+
+  /// At a given area a sphere is the only shape of its volume.
+  void sphere_can_leave() const {
+    if (scene_.shape.kind == ShapeKind::sphere && scene_.volume.constraint == Constraint::fixed &&
+        !scene_.domains.is_bulged() && scene_.perturbation.amplitude == 0)
+      refuse({"volume.constraint", "shape.kind"},
+             "a sphere that keeps its volume and area cannot change its shape; allowed: \"ramped\" "
+             "to a reduced volume below 1, or \"free\", or another kind in [shape]");
   }
 
   void directions() const {

@@ -316,6 +316,9 @@ std::vector<BadScene> bad_scenes() {
        "[shape]\nkind = \"sphere\"\nradius = 0.9\n[domains]\nkind = \"caps\"\ndirections = [[0, 0, "
        "1]]\nbulge = 60\n",
        "bad.toml:3: [shape] radius: the shape reaches to x = -1.023", "outside the box"},
+      {"SphereThatCannotLeave",
+       "[shape]\nkind = \"sphere\"\n[domains]\nkind = \"cap\"\narea_fraction = 0.3\n",
+       "bad.toml:2: [shape] kind: a sphere that keeps its volume", "\"ramped\""},
       {"AreaDifferenceOfDomains", cap + "[area_difference]\nconstraint = \"fixed\"\n",
        "bad.toml:7: [area_difference] constraint: not with domains yet", "\"free\""},
       {"MultiplierOfDomains", cap + "[area_difference]\nmultiplier = 3\n",

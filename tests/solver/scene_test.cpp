@@ -261,7 +261,7 @@ TEST(Overrides, OfTheDomainsDropTheModuliOfTheOldPhases) {
   EXPECT_EQ(one.line, Line{});
   EXPECT_EQ(one.stretch.modulus, 1000);
   const Overrides caps{"domains.kind=caps", "domains.directions=[[0, 0, 1], [1, 0, 0]]",
-                       "line.tension=3"};
+                       "line.tension=3", "volume.constraint=free"};
   const Scene two = parse_scene("[shape]\nkind = \"sphere\"\n[membrane]\nbending_modulus = 2\n",
                                 "scene.toml", caps);
   EXPECT_EQ(two.domains.directions, (std::vector<Vec3>{{0, 0, 1}, {1, 0, 0}}));
