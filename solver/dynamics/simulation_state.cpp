@@ -92,6 +92,8 @@ SimulationState Simulation::state() const {
                     .events = events_,
                     .vesicle = vesicle_.state(),
                     .stepper = stepper_.memory(),
+                    .psi_stepper = {},
+                    .c_stepper = {},
                     .excess = excess_,
                     .error = error_,
                     .last_dt = last_dt_,
