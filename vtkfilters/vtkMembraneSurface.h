@@ -37,7 +37,8 @@
  * | c              | double, 1        | where the input has it |
  *
  * `velocity` is that of all forces of the state: bending, the phase boundary, local stretch, films and
- * the constraints. Where there is more than bending it takes several times as long as the rest.
+ * the constraints; of several domains that local stretch holds, each with a tension of its own, it has
+ * their mean tension. Where there is more than bending it takes several times as long as the rest.
  *
  * T. Zhang, C. W. Wolgemuth, J. Comput. Phys. 450 (2022) 110815.
  *

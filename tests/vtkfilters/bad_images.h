@@ -1,6 +1,7 @@
 #pragma once
 #include "vtk_test.h"
 
+#include <vtkCellData.h>
 #include <vtkMatrix3x3.h>
 
 #include <limits>
@@ -25,6 +26,10 @@ inline std::vector<BadImage> bad_images() {
   };
   add("the image is empty", [](vtkImageData& image) { image.Initialize(); });
   add("no point data", [](vtkImageData& image) { image.GetPointData()->Initialize(); });
+  add("the image has cell data only", [](vtkImageData& image) {
+    image.GetCellData()->AddArray(array_of("phi", std::vector<double>(31 * 31 * 31, 1.0)));
+    image.GetPointData()->Initialize();
+  });
   add("not finite", set_phi(std::numeric_limits<double>::quiet_NaN()));
   add("1 of the 32768 values of \"phi\" are not finite", [](vtkImageData& image) {
     image.GetPointData()->GetArray("phi")->SetComponent(7, 0, INFINITY);

@@ -2,7 +2,7 @@
 #include "fields/field_data.h"
 #include "scene/builtin.h"
 #include "scene/scene_toml.h"
-#include "store/history.h"
+#include "stored_run.h"
 #include "vtk_test.h"
 
 #include <vtkInformation.h>
@@ -52,30 +52,10 @@ protected:
     std::ofstream(file) << content;
   }
 
-  /// What `lamella run` would leave of the scene, but for pictures and words.
   void store_run() {
-    const Scene scene = parse_scene(text, "test");
-    Simulation simulation(scene);
-    HistoryWriter history(folder_ / "history.csv", simulation.measures());
-    std::vector<SeriesEntry> series;
-    const auto store = [&] {
-      const std::string name = "frame_000" + std::to_string(series.size()) + ".hdf";
-      write_frame(folder_ / "frames" / name, simulation.frame());
-      series.push_back({name, simulation.time()});
-    };
-    EventWriter events(folder_ / "events.csv");
-    history.add(simulation.measures());
-    store();
-    for (const double goal : {5e-5, 1e-4}) {
-      while (simulation.time() < goal) {
-        simulation.step(goal);
-        history.add(simulation.measures());
-      }
-      store();
-    }
-    for (const Event& event : simulation.events()) events.add(event);
-    events.add({.kind = Event::Kind::fission, .time = 6e-5, .place = {0.25, 0, 0}, .size = 0.03});
-    write_series(folder_ / "frames" / "frames.hdf.series", series);
+    lamella::store_run(
+        folder_, parse_scene(text, "test"),
+        {.kind = Event::Kind::fission, .time = 6e-5, .place = {0.25, 0, 0}, .size = 0.03});
   }
 
   fs::path folder_;

@@ -326,9 +326,32 @@ TEST(VesicleDynamics, SaysWhatIsWrongWithAnImage) {
     EXPECT_THAT(error_of(dynamics), HasSubstr(bad.complaint));
     EXPECT_EQ(dynamics->GetOutput()->GetNumberOfPoints(), 0);
   }
-  EXPECT_THAT(error_of(dynamics_of(image_of(frame_of(sphere(0.3), Grid{{520, 16, 16}, 0.05})))),
+  EXPECT_THAT(error_of(dynamics_of(image_of(frame_of(sphere(0.2), Grid{{520, 16, 16}, 0.05})))),
               HasSubstr("520 x 16 x 16 nodes; along each axis the solver takes an integer multiple "
                         "of 8 from 16 to 512"));
+}
+
+TEST(VesicleDynamics, SaysThatAnImageLeavesNoRoom) {
+  const auto dynamics = dynamics_of(image_of(frame_of(sphere(0.3), Grid{{32, 32, 16}, 0.04})));
+  EXPECT_THAT(error_of(dynamics), HasSubstr("within 3 nodes of a side of the image along z"));
+}
+
+TEST(VesicleDynamics, IsModifiedOnlyByWhatChanges) {
+  vtkNew<vtkVesicleDynamics> dynamics;
+  const auto modifies = [&](auto&& set) {
+    const vtkMTimeType before = dynamics->GetMTime();
+    set();
+    return dynamics->GetMTime() > before;
+  };
+  EXPECT_FALSE(modifies([&] { dynamics->SetBendingModulus(dynamics->GetBendingModulus()); }));
+  EXPECT_FALSE(modifies([&] { dynamics->SetVolumeConstraint("fixed"); }));
+  EXPECT_FALSE(modifies([&] { dynamics->RemoveAllVolumeTargets(); }));
+  EXPECT_FALSE(modifies([&] { dynamics->SetPhiArray("phi"); }));
+  EXPECT_TRUE(modifies([&] { dynamics->SetBendingModulus(2); }));
+  EXPECT_TRUE(modifies([&] { dynamics->SetVolumeConstraint("ramped"); }));
+  EXPECT_TRUE(modifies([&] { dynamics->AddVolumeTarget(0.8, 0); }));
+  EXPECT_TRUE(modifies([&] { dynamics->RemoveAllVolumeTargets(); }));
+  EXPECT_TRUE(modifies([&] { dynamics->SetPhiArray("level"); }));
 }
 
 TEST(VesicleDynamics, SaysWhatIsWrongWithParameters) {

@@ -3,6 +3,7 @@
 #include "fields/resample.h"
 #include "fields/smooth.h"
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkInformation.h>
@@ -35,6 +36,9 @@ std::string names_of_arrays(vtkPointData& data) {
 vtkDataArray& find_phi(vtkImageData& image, const std::string& name) {
   vtkPointData& data = *image.GetPointData();
   if (vtkDataArray* array = data.GetArray(name.c_str())) return *array;
+  if (data.GetNumberOfArrays() == 0 && image.GetCellData()->GetNumberOfArrays() > 0)
+    throw InputError("the image has cell data only, and point data is needed "
+                     "(vtkCellDataToPointData makes it)");
   if (data.GetNumberOfArrays() == 0)
     throw InputError(fmt::format("the image has no point data; a level set \"{}\" is needed, "
                                  "negative inside the membrane",

@@ -16,7 +16,7 @@ const char* choice_of(const Scene& scene, std::string_view section, std::string_
   return choice.names[choice.get(copy)].data(); // a literal
 }
 
-void set_choice(Scene& scene, std::string_view section, std::string_view name,
+bool set_choice(Scene& scene, std::string_view section, std::string_view name,
                 std::string_view value) {
   const Key& key = *find_key(section, name);
   const Choice& choice = std::get<Choice>(key.access);
@@ -24,7 +24,10 @@ void set_choice(Scene& scene, std::string_view section, std::string_view name,
   if (found == choice.names.end())
     throw InputError(fmt::format("{}: \"{}\" is not available; allowed: {}{}", key.label(), value,
                                  allowed_text(key), suggestion(std::string(value), choice.names)));
-  choice.set(scene, int(found - choice.names.begin()));
+  const int index = int(found - choice.names.begin());
+  if (choice.get(scene) == index) return false;
+  choice.set(scene, index);
+  return true;
 }
 
 void print_sections(std::ostream& out, const std::string& indent, const Scene& scene,

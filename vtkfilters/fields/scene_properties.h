@@ -10,8 +10,9 @@ namespace lamella {
 
 /// The value by name of a parameter that has a choice, such as kind in [shape].
 const char* choice_of(const Scene& scene, std::string_view section, std::string_view key);
-/// Throws InputError for a name that there is not, with those there are.
-void set_choice(Scene& scene, std::string_view section, std::string_view key,
+/// Whether that changed anything. Throws InputError for a name that there is not, with those there
+/// are.
+bool set_choice(Scene& scene, std::string_view section, std::string_view key,
                 std::string_view value);
 
 /// The parameters of some sections that count, a line each.
@@ -46,8 +47,7 @@ void remove_targets(Ramp& ramp);
 #define lamellaChoiceProperty(cls, name, section, key)                                             \
   void cls::Set##name(const char* value) {                                                         \
     lamella::reporting(this, [&] {                                                                 \
-      lamella::set_choice(*this->Scene, section, key, value ? value : "");                         \
-      this->Modified();                                                                            \
+      if (lamella::set_choice(*this->Scene, section, key, value ? value : "")) this->Modified();   \
     });                                                                                            \
   }                                                                                                \
   const char* cls::Get##name() { return lamella::choice_of(*this->Scene, section, key); }
@@ -58,6 +58,7 @@ void remove_targets(Ramp& ramp);
     this->Modified();                                                                              \
   }                                                                                                \
   void cls::RemoveAll##name##Targets() {                                                           \
+    if (this->Scene->member.targets.empty()) return;                                               \
     lamella::remove_targets(this->Scene->member);                                                  \
     this->Modified();                                                                              \
   }                                                                                                \

@@ -75,6 +75,21 @@ int solver_nodes(int nodes) {
   return std::max(least, (nodes + multiple - 1) / multiple * multiple);
 }
 
+/// Throws where the solver could not measure the membrane for the sides of the box.
+void check_clearance(const Frame& frame) {
+  constexpr int least = 3; // spacings
+  const Grid& grid = frame.grid;
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    const std::array<int, 3> at{int(n % grid.nx()), int(n / grid.nx() % grid.ny()),
+                                int(n / grid.nx() / grid.ny())};
+    for (int a = 0; a < 3; ++a)
+      if (frame.phi[n] < 0 && (at[a] < least || at[a] >= grid.nodes[a] - least))
+        throw InputError(fmt::format("the membrane comes within {} nodes of a side of the image "
+                                     "along {}; leave more room (vtkImageConstantPad makes some)",
+                                     least, "xyz"[a]));
+  }
+}
+
 } // namespace
 
 Place solver_place(const Place& image) {
@@ -100,6 +115,7 @@ Place solver_place(const Lattice& image) {
 ImageVesicle start_of(ImageVesicle vesicle) {
   Frame& frame = vesicle.frame;
   frame.time = 0;
+  check_clearance(frame);
   const double slope = slope_of(frame);
   if (!(slope > 1e-300) || !std::isfinite(slope))
     throw InputError("phi is flat where it vanishes; it must change sign across the membrane");
