@@ -86,7 +86,9 @@ int vtkVesicleSource::RequestData(
       {
         throw lamella::InputError("stored frames are opened by vtkVesicleRunReader, not here");
       }
-      lamella::validate(*this->Scene);
+      lamella::Scene scene = *this->Scene;
+      scene.volume.constraint = lamella::Constraint::free; // whatever is then made of the start
+      lamella::validate(scene);
       lamella::Start start = lamella::start_of(*this->Scene);
       lamella::fill_image(*vtkImageData::GetData(output),
         { .grid = this->Scene->grid(), .phi = std::move(start.phi), .psi = std::move(start.psi) });

@@ -20,7 +20,7 @@ SCENE = {
 }
 TWO_PHASES = {
     "grid": {"nodes": [32, 32, 32]},
-    "shape": {"kind": "sphere", "radius": 0.6},
+    "shape": {"kind": "prolate", "reduced_volume": 0.9},
     "domains": {"kind": "caps", "directions": [[0, 0, 1]], "half_angle": 60},
     "line": {"tension": 5},
     "run": {"end_time": 1e-5},
