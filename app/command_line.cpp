@@ -56,6 +56,15 @@ constexpr const char* inspect_notes = R"(Examples:
   lamella inspect oblate/frames/frame_0004.hdf        a stored state
   lamella inspect oblate/checkpoints/checkpoint_00000087.hdf)";
 
+constexpr const char* figure_notes = R"(Examples:
+  lamella figure                        the built-in figures, those of the paper
+  lamella figure 9 -o figures           its runs and its page, as PNG, PDF and SVG
+  lamella figure all -o figures         all of them; runs that are there are not made again
+  lamella figure mine.toml              your own; docs/figures.md describes the format
+
+Runs are kept in the folder "runs" beside the pages. Exit codes: 0 done, 1 an outcome is not as the
+figure's file expects, 3 a run did not come to its end.)";
+
 constexpr const char* scenes_notes = R"(Examples:
   lamella scenes                              the list
   lamella scenes fig3_oblate > vesicle.toml   a scene to start your own from)";
@@ -200,6 +209,29 @@ void add_inspect(CLI::App& app, std::filesystem::path& what) {
       ->type_name("");
 }
 
+void add_figure(CLI::App& app, FigureOptions& options) {
+  CLI::App& command =
+      *app.add_subcommand("figure", "Draw a figure or table of the paper, or your own");
+  command.footer(figure_notes);
+  command
+      .add_option("name", options.name, "A figure (3 to 15, table1, ... or a file), or all")
+      ->type_name("");
+  add_output(command, options.folder, "Output folder (default: figures)");
+  command.add_option("--set", options.set, "Change a value of all scenes; may be repeated")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->type_name("SECTION.KEY=VALUE");
+  add_list(command, "--format", options.formats, "png, pdf, svg (default: all three)")
+      ->check(CLI::IsMember({"png", "pdf", "svg"}).description(""))
+      ->type_name("NAME[,NAME]");
+  command.add_flag(
+      "--transparent",
+      [&](std::int64_t) { options.background = render::Background::transparent; },
+      "PNG without background");
+  add_threads(command, options.threads);
+  add_backend(command, options.backend);
+}
+
 void add_scenes(CLI::App& app, std::string& name) {
   CLI::App& scenes = *app.add_subcommand("scenes", "List the built-in scenes, or print one");
   scenes.footer(scenes_notes);
@@ -308,12 +340,14 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   RunOptions run_options;
   RenderCommandOptions render_options;
+  FigureOptions figure_options;
   std::string scene;
   TradeoffOptions tradeoff_options;
   ExtremesOptions extremes_options;
   add_run(app, run_options);
   add_render(app, render_options);
   std::filesystem::path inspected;
+  add_figure(app, figure_options);
   add_scenes(app, scene);
   add_inspect(app, inspected);
   add_tradeoff(app, tradeoff_options);
@@ -332,6 +366,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   if (app.got_subcommand("run")) return [=] { return run(run_options); };
   if (app.got_subcommand("render")) return [=] { return redraw(render_options); };
   if (app.got_subcommand("inspect")) return [=] { return inspect(inspected); };
+  if (app.got_subcommand("figure")) return [=] { return figure(figure_options); };
   if (app.got_subcommand("tradeoff")) return [=] { return tradeoff(tradeoff_options); };
   if (app.got_subcommand("extremes")) return [=] { return extremes(extremes_options); };
   return [=] { return show_scenes(scene); };

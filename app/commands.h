@@ -42,6 +42,21 @@ int redraw(const RenderCommandOptions& options);
 /// UsageError, StoreError.
 int inspect(const std::filesystem::path& what);
 
+struct FigureOptions {
+  std::string name; ///< a file, a built-in figure, its number, or "all"; empty: list them
+  std::filesystem::path folder = "figures";
+  std::vector<std::string> set;                     ///< section.key=value, for all scenes
+  std::vector<std::string> formats{"png", "pdf", "svg"};
+  std::string backend = "auto";
+  int threads = 0; ///< 0: all
+  render::Background background = render::Background::white;
+};
+
+/// Runs the scenes that figures need, as far as the folder does not have them, and draws the
+/// figures. Returns an ExitCode, `unexpected` where an outcome is not as a figure expects; throws
+/// UsageError, SceneError, StoreError, RenderError.
+int figure(const FigureOptions& options);
+
 /// Lists the built-in scenes, or prints one. Returns an ExitCode; throws SceneError.
 int show_scenes(const std::string& name);
 

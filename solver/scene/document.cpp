@@ -55,15 +55,6 @@ void refuse_rubbish(std::string_view text, const std::string& source) {
   }
 }
 
-toml::table parse_toml(std::string_view text, const std::string& source) {
-  try {
-    return toml::parse(text, std::string_view(source));
-  } catch (const toml::parse_error& error) {
-    refuse_scene(fmt::format("{}this is not TOML: {}", at_line(source, error.source().begin.line),
-                             error.description()));
-  }
-}
-
 bool is_section(std::string_view name) { return !name.empty() && !keys_of_section(name).empty(); }
 
 /// The known section that has a key of this name, or nothing.
@@ -155,8 +146,17 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
-std::vector<Given> parse_document(std::string_view text, const std::string& source) {
+toml::table parse_toml(std::string_view text, const std::string& source) {
   refuse_rubbish(text, source);
+  try {
+    return toml::parse(text, std::string_view(source));
+  } catch (const toml::parse_error& error) {
+    refuse_scene(fmt::format("{}this is not TOML: {}", at_line(source, error.source().begin.line),
+                             error.description()));
+  }
+}
+
+std::vector<Given> parse_document(std::string_view text, const std::string& source) {
   const auto table = std::make_shared<const toml::table>(parse_toml(text, source));
   std::vector<Given> given;
   for (const Entry& e : entries_by_line(*table)) {

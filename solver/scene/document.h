@@ -22,6 +22,9 @@ struct Given {
 /// A scene's text, at most 1 MiB. Throws SceneError.
 std::string read_text(const std::filesystem::path& file);
 
+/// A text as TOML. Throws SceneError for one that is not TOML, or that could not be of ours.
+toml::table parse_toml(std::string_view text, const std::string& source);
+
 /// The keys of a scene in the order of its lines. Throws SceneError for a text that is not TOML,
 /// for unknown sections and keys, and if there is none.
 std::vector<Given> parse_document(std::string_view text, const std::string& source);

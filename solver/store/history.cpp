@@ -132,6 +132,15 @@ Row row_of(Event& e) {
           {"cells_z", &e.cells[2]}};
 }
 
+std::optional<double> value_of(Measures measures, std::string_view column) {
+  for (const Field& field : row_of(measures)) {
+    if (field.column != column) continue;
+    if (auto* const* number = std::get_if<double*>(&field.value)) return **number;
+    if (auto* const* count = std::get_if<int*>(&field.value)) return **count;
+  }
+  return {};
+}
+
 std::vector<Measures> read_history(const std::filesystem::path& file) {
   return read_records(file, "history", measures_with(read_columns(file)));
 }

@@ -4,8 +4,10 @@
 #include "store/table.h"
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lamella {
@@ -17,6 +19,9 @@ Row row_of(Event& event);
 
 /// Measures that have these columns.
 Measures measures_with(std::span<const std::string> columns);
+
+/// The value in a column of history.csv; nothing where the measures do not have it.
+std::optional<double> value_of(Measures measures, std::string_view column);
 
 /// A table that grows by records. Both functions throw StoreError, see TableWriter.
 template <class Record>

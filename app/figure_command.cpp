@@ -1,0 +1,145 @@
+#include "commands.h"
+
+#include "error.h"
+#include "exit_code.h"
+#include "figures/figure_page.h"
+#include "find_scene.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "run_queue.h"
+#include "scene/nearest.h"
+#include "store/atomic_file.h"
+#include "usage_error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+#include <thread>
+
+namespace lamella {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// "9" is "fig9".
+std::string builtin_name(const std::string& word) {
+  const bool number = !word.empty() && std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c); });
+  return number ? "fig" + word : word;
+}
+
+std::vector<FigureSpec> find_figures(const std::string& word) {
+  std::vector<FigureSpec> figures;
+  std::vector<std::string_view> names{"all"};
+  for (const BuiltinFigure& figure : builtin_figures()) {
+    names.push_back(figure.name);
+    if (word == "all" || figure.name == builtin_name(word))
+      figures.push_back(parse_figure(figure.text, fmt::format("{}.toml", figure.name)));
+  }
+  if (!figures.empty()) return figures;
+  std::error_code ignored;
+  const fs::path file = word;
+  if (fs::exists(file, ignored) || file.has_parent_path() || file.extension() == ".toml")
+    return {read_figure(file)};
+  throw SceneError(fmt::format("\"{}\": neither a file nor a built-in figure; built in are {}{}",
+                               word, fmt::join(names, ", "), suggestion(word, names)));
+}
+
+/// The scenes that figures need, with those of their own files beside these.
+class Scenes {
+public:
+  explicit Scenes(std::vector<std::string> set) : set_(std::move(set)) {}
+
+  const Scene& find(const RunSpec& run) {
+    const std::string key = fmt::format("{}\n{}", run.scene, fmt::join(run.set, "\n"));
+    if (const auto known = scenes_.find(key); known != scenes_.end()) return known->second;
+    std::vector<std::string> set = run.set;
+    set.insert(set.end(), set_.begin(), set_.end());
+    return scenes_.emplace(key, find_scene(run.scene, set)).first->second;
+  }
+
+private:
+  std::vector<std::string> set_;
+  std::map<std::string, Scene> scenes_;
+};
+
+void remark(const std::string& text) {
+  std::fputs(fmt::format("lamella: {}\n", text).c_str(), stderr);
+}
+
+std::vector<Scene> scenes_of(const std::vector<FigureSpec>& figures, Scenes& scenes) {
+  std::vector<Scene> all;
+  for (const FigureSpec& figure : figures)
+    for (const RunSpec& run : runs_of(figure)) {
+      const Scene& scene = scenes.find(run);
+      if (std::ranges::find(all, scene) == all.end()) all.push_back(scene);
+    }
+  return all;
+}
+
+/// Draws a figure; false where an outcome is not as its file expects.
+bool draw(const FigureSpec& figure, const FigureOptions& options, const RunFinder& find_run,
+          render::Studio& studio) {
+  const FigurePage page = draw_figure(figure, find_run, {studio});
+  std::vector<std::string> files;
+  const auto file = [&](const std::string& end) {
+    files.push_back(figure.name + end);
+    return options.folder / files.back();
+  };
+  for (const std::string& format : options.formats)
+    write_sheet(file("." + format), page.sheet, 300, options.background);
+  for (std::size_t n = 0; n < page.tables.size(); ++n) {
+    const std::string number = page.tables.size() == 1 ? "" : fmt::format("_{}", n + 1);
+    write_text_atomically(file(number + ".csv"), page.tables[n].csv());
+    write_text_atomically(file(number + ".md"), page.tables[n].markdown());
+  }
+  say(fmt::format("{}: {}\n", figure.name, fmt::join(files, ", ")));
+  for (const std::string& surprise : page.surprises)
+    remark(fmt::format("{}: {}", figure.name, surprise));
+  return page.surprises.empty();
+}
+
+} // namespace
+
+int figure(const FigureOptions& options) {
+  if (options.name.empty()) {
+    for (const BuiltinFigure& figure : builtin_figures())
+      fmt::print("{:<10} {}\n", figure.name, figure.title);
+    return success;
+  }
+  const std::vector<FigureSpec> figures = find_figures(options.name);
+  Scenes scenes(options.set);
+  const std::vector<Scene> needed = scenes_of(figures, scenes);
+  const RunStore store(options.folder / "runs");
+  watch_for_interrupt();
+  const int cores = options.threads > 0 ? options.threads
+                                        : std::max(1, int(std::thread::hardware_concurrency()));
+  const std::vector<FailedRun> failed = run_all(needed, store, cores);
+  if (interrupt_requested()) {
+    remark("interrupted; runs that have ended are kept, the same command goes on with the others");
+    return interrupted;
+  }
+  for (const FailedRun& run : failed) remark(fmt::format("{}: {}", run.scene, run.why));
+
+  const RunFinder find_run = [&](const RunSpec& run) {
+    const Scene& scene = scenes.find(run);
+    if (!store.has(scene)) throw SceneError(scene.name + " did not come to its end");
+    return store.place(scene);
+  };
+  render::Studio studio(options.backend);
+  int code = success;
+  for (const FigureSpec& each : figures) {
+    if (interrupt_requested()) return interrupted;
+    try {
+      if (!draw(each, options, find_run, studio) && code == success) code = unexpected;
+    } catch (const SceneError& e) {
+      remark(fmt::format("{}: not drawn: {}", each.name, e.what()));
+      code = failed.empty() ? bad_input : run_stopped;
+    }
+  }
+  return code;
+}
+
+} // namespace lamella
