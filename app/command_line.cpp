@@ -65,6 +65,13 @@ constexpr const char* figure_notes = R"(Examples:
 Runs are kept in the folder "runs" beside the pages. Exit codes: 0 done, 1 an outcome is not as the
 figure's file expects, 3 a run did not come to its end.)";
 
+constexpr const char* movie_notes = R"(Examples:
+  lamella movie oblate                          oblate/movie.mp4, 8 seconds
+  lamella movie oblate -o oblate.webm --turntable
+  lamella movie oblate -o pictures              pictures in a folder
+
+Without ffmpeg there are pictures in a folder instead.)";
+
 constexpr const char* scenes_notes = R"(Examples:
   lamella scenes                              the list
   lamella scenes fig3_oblate > vesicle.toml   a scene to start your own from)";
@@ -213,8 +220,7 @@ void add_figure(CLI::App& app, FigureOptions& options) {
   CLI::App& command =
       *app.add_subcommand("figure", "Draw a figure or table of the paper, or your own");
   command.footer(figure_notes);
-  command
-      .add_option("name", options.name, "A figure (3 to 15, table1, ... or a file), or all")
+  command.add_option("name", options.name, "A figure (3 to 15, table1, ... or a file), or all")
       ->type_name("");
   add_output(command, options.folder, "Output folder (default: figures)");
   command.add_option("--set", options.set, "Change a value of all scenes; may be repeated")
@@ -225,10 +231,43 @@ void add_figure(CLI::App& app, FigureOptions& options) {
       ->check(CLI::IsMember({"png", "pdf", "svg"}).description(""))
       ->type_name("NAME[,NAME]");
   command.add_flag(
-      "--transparent",
-      [&](std::int64_t) { options.background = render::Background::transparent; },
+      "--transparent", [&](std::int64_t) { options.background = render::Background::transparent; },
       "PNG without background");
+  command
+      .add_option(
+          "--gallery", options.gallery,
+          "Also a page of small pictures, in Markdown; these go to images/gallery beside it")
+      ->type_name("FILE");
   add_threads(command, options.threads);
+  add_backend(command, options.backend);
+}
+
+void add_movie(CLI::App& app, MovieOptions& options) {
+  CLI::App& command = *app.add_subcommand("movie", "Make a movie of a stored run");
+  command.footer(movie_notes);
+  command.add_option("folder", options.folder, "Output folder of a run")->required()->type_name("");
+  command
+      .add_option("-o,--output", options.output,
+                  "File (.mp4, .webm) or folder for pictures (default: movie.mp4 in the run's)")
+      ->type_name("NAME");
+  command.add_option("--width", options.width, "In pixels")
+      ->check(CLI::Range(200, 4000).description(""))
+      ->capture_default_str()
+      ->type_name("N");
+  command.add_option("--height", options.height, "In pixels")
+      ->check(CLI::Range(200, 4000).description(""))
+      ->capture_default_str()
+      ->type_name("N");
+  command.add_option("--seconds", options.seconds, "Length")
+      ->check(CLI::Range(0.1, 3600.).description(""))
+      ->capture_default_str()
+      ->type_name("S");
+  command.add_option("--rate", options.rate, "Pictures a second")
+      ->check(CLI::Range(1., 100.).description(""))
+      ->capture_default_str()
+      ->type_name("N");
+  command.add_flag("--turntable{360}", options.turn, "The eye goes around the vesicle once");
+  add_view(command, options.view);
   add_backend(command, options.backend);
 }
 
@@ -341,6 +380,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   RunOptions run_options;
   RenderCommandOptions render_options;
   FigureOptions figure_options;
+  MovieOptions movie_options;
   std::string scene;
   TradeoffOptions tradeoff_options;
   ExtremesOptions extremes_options;
@@ -348,6 +388,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   add_render(app, render_options);
   std::filesystem::path inspected;
   add_figure(app, figure_options);
+  add_movie(app, movie_options);
   add_scenes(app, scene);
   add_inspect(app, inspected);
   add_tradeoff(app, tradeoff_options);
@@ -367,6 +408,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   if (app.got_subcommand("render")) return [=] { return redraw(render_options); };
   if (app.got_subcommand("inspect")) return [=] { return inspect(inspected); };
   if (app.got_subcommand("figure")) return [=] { return figure(figure_options); };
+  if (app.got_subcommand("movie")) return [=] { return movie(movie_options); };
   if (app.got_subcommand("tradeoff")) return [=] { return tradeoff(tradeoff_options); };
   if (app.got_subcommand("extremes")) return [=] { return extremes(extremes_options); };
   return [=] { return show_scenes(scene); };

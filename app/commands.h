@@ -45,17 +45,31 @@ int inspect(const std::filesystem::path& what);
 struct FigureOptions {
   std::string name; ///< a file, a built-in figure, its number, or "all"; empty: list them
   std::filesystem::path folder = "figures";
-  std::vector<std::string> set;                     ///< section.key=value, for all scenes
+  std::vector<std::string> set; ///< section.key=value, for all scenes
   std::vector<std::string> formats{"png", "pdf", "svg"};
   std::string backend = "auto";
   int threads = 0; ///< 0: all
   render::Background background = render::Background::white;
+  std::filesystem::path gallery; ///< a Markdown file that shows all, small; empty: none
 };
 
 /// Runs the scenes that figures need, as far as the folder does not have them, and draws the
 /// figures. Returns an ExitCode, `unexpected` where an outcome is not as a figure expects; throws
 /// UsageError, SceneError, StoreError, RenderError.
 int figure(const FigureOptions& options);
+
+struct MovieOptions {
+  std::filesystem::path folder;   ///< of a run
+  std::filesystem::path output;   ///< .mp4, .webm, or a folder for pictures; empty: movie.mp4 there
+  int width = 1200, height = 900; ///< pixels
+  double seconds = 8, rate = 25;  ///< length; pictures a second
+  double turn = 0;                ///< degrees by which the eye goes around in that time
+  render::View view;
+  std::string backend = "auto";
+};
+
+/// Makes a movie of a stored run. Returns an ExitCode; throws UsageError, StoreError, RenderError.
+int movie(const MovieOptions& options);
 
 /// Lists the built-in scenes, or prints one. Returns an ExitCode; throws SceneError.
 int show_scenes(const std::string& name);

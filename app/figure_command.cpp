@@ -26,8 +26,9 @@ namespace {
 
 /// "9" is "fig9".
 std::string builtin_name(const std::string& word) {
-  const bool number = !word.empty() && std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c); });
-  return number ? "fig" + word : word;
+  const bool number =
+      !word.empty() && std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c); });
+  return number ? fmt::format("fig{}", word) : word;
 }
 
 std::vector<FigureSpec> find_figures(const std::string& word) {
@@ -79,9 +80,42 @@ std::vector<Scene> scenes_of(const std::vector<FigureSpec>& figures, Scenes& sce
   return all;
 }
 
+/// A page of small pictures of figures, in Markdown.
+class Gallery {
+public:
+  explicit Gallery(fs::path file) : file_(std::move(file)) {
+    if (file_.empty()) return;
+    std::error_code error;
+    fs::create_directories(file_.parent_path() / images, error);
+    if (error)
+      throw StoreError(fmt::format("{}: cannot be written: {}", file_.string(), error.message()));
+  }
+
+  void add(const FigureSpec& figure, const FigurePage& page) {
+    if (file_.empty()) return;
+    const fs::path image = fs::path(images) / (figure.name + ".png");
+    constexpr int width = 840;
+    render::write_png(file_.parent_path() / image, render::print(page.sheet, width));
+    text_ += fmt::format("\n## {}\n\n`lamella figure {}`\n\n![{}]({})\n", figure.title, figure.name,
+                         figure.title, image.string());
+    for (const FigureTable& table : page.tables) text_ += "\n" + table.markdown();
+  }
+
+  void write() const {
+    if (!file_.empty()) write_text_atomically(file_, text_);
+  }
+
+private:
+  static constexpr const char* images = "images/gallery";
+  fs::path file_;
+  std::string text_ =
+      "# Gallery\n\nFigures as `lamella figure` draws them; [figures.md](figures.md) "
+      "describes how. This page is made by `lamella figure --gallery`.\n";
+};
+
 /// Draws a figure; false where an outcome is not as its file expects.
 bool draw(const FigureSpec& figure, const FigureOptions& options, const RunFinder& find_run,
-          render::Studio& studio) {
+          render::Studio& studio, Gallery& gallery) {
   const FigurePage page = draw_figure(figure, find_run, {studio});
   std::vector<std::string> files;
   const auto file = [&](const std::string& end) {
@@ -95,6 +129,7 @@ bool draw(const FigureSpec& figure, const FigureOptions& options, const RunFinde
     write_text_atomically(file(number + ".csv"), page.tables[n].csv());
     write_text_atomically(file(number + ".md"), page.tables[n].markdown());
   }
+  gallery.add(figure, page);
   say(fmt::format("{}: {}\n", figure.name, fmt::join(files, ", ")));
   for (const std::string& surprise : page.surprises)
     remark(fmt::format("{}: {}", figure.name, surprise));
@@ -114,8 +149,8 @@ int figure(const FigureOptions& options) {
   const std::vector<Scene> needed = scenes_of(figures, scenes);
   const RunStore store(options.folder / "runs");
   watch_for_interrupt();
-  const int cores = options.threads > 0 ? options.threads
-                                        : std::max(1, int(std::thread::hardware_concurrency()));
+  const int cores =
+      options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
   const std::vector<FailedRun> failed = run_all(needed, store, cores);
   if (interrupt_requested()) {
     remark("interrupted; runs that have ended are kept, the same command goes on with the others");
@@ -129,16 +164,18 @@ int figure(const FigureOptions& options) {
     return store.place(scene);
   };
   render::Studio studio(options.backend);
+  Gallery gallery(options.gallery);
   int code = success;
   for (const FigureSpec& each : figures) {
     if (interrupt_requested()) return interrupted;
     try {
-      if (!draw(each, options, find_run, studio) && code == success) code = unexpected;
+      if (!draw(each, options, find_run, studio, gallery) && code == success) code = unexpected;
     } catch (const SceneError& e) {
       remark(fmt::format("{}: not drawn: {}", each.name, e.what()));
       code = failed.empty() ? bad_input : run_stopped;
     }
   }
+  gallery.write();
   return code;
 }
 

@@ -129,23 +129,23 @@ private:
     });
     job->process->setStandardOutputFile(QProcess::nullDevice());
     job->process->start(QCoreApplication::applicationFilePath(),
-                       {"run", QString::fromStdString(job->order.scene.string()), "-o",
-                        QString::fromStdString(job->order.folder.string()), "--force",
-                        "--no-pictures", "--threads", QString::number(cores_ / at_once)});
+                        {"run", QString::fromStdString(job->order.scene.string()), "-o",
+                         QString::fromStdString(job->order.folder.string()), "--force",
+                         "--no-pictures", "--threads", QString::number(cores_ / at_once)});
     jobs_.push_back(std::move(job));
   }
 
   void end(Job& job) {
     const double seconds = std::chrono::duration<double>(Clock::now() - job.begin).count();
     const bool good = job.process->exitStatus() == QProcess::NormalExit &&
-                      job.process->error() != QProcess::FailedToStart && job.process->exitCode() == 0;
+                      job.process->error() != QProcess::FailedToStart &&
+                      job.process->exitCode() == 0;
     try {
       if (good) store_.finish(job.scene);
     } catch (const StoreError& e) {
       trouble_ = e.what();
     }
-    if (!good && !interrupt_requested())
-      failed_.push_back({job.scene.name, reason(*job.process)});
+    if (!good && !interrupt_requested()) failed_.push_back({job.scene.name, reason(*job.process)});
     if (good) done_cost_ += expected_cost(job.scene);
     clear_line();
     if (!interrupt_requested())
@@ -172,8 +172,9 @@ private:
         cost > 0.02 * whole_cost_
             ? fmt::format("   {} left", duration_text(seconds * (whole_cost_ / cost - 1)))
             : "";
-    std::string line = fmt::format("run {} to {} of {}{}   {}", done_ + 1,
-                                   done_ + int(jobs_.size()), count_, left, fmt::join(shares, ", "));
+    std::string line =
+        fmt::format("run {} to {} of {}{}   {}", done_ + 1, done_ + int(jobs_.size()), count_, left,
+                    fmt::join(shares, ", "));
     line.resize(width, ' ');
     std::fprintf(stderr, "\r%s", line.c_str());
   }

@@ -56,12 +56,12 @@ render::Series exact_series(const StoredStates& run, const PlotPanel& panel,
   for (const Measures& m : run.history()) {
     if (m.time == 0) continue;
     const ReferenceState state = reference->at(m.time);
-    const double value = column == "int_KM2"  ? state.int_KM2
-                         : column == "P"      ? state.P
-                         : column == "sigma"  ? state.sigma
-                         : column == "energy" ? (std::isnan(state.energy) ? state.int_KM2 / 2
-                                                                          : state.energy)
-                                              : NAN;
+    const double value = column == "int_KM2" ? state.int_KM2
+                         : column == "P"     ? state.P
+                         : column == "sigma" ? state.sigma
+                         : column == "energy"
+                             ? (std::isnan(state.energy) ? state.int_KM2 / 2 : state.energy)
+                             : NAN;
     series.points.push_back({m.time, value});
   }
   return series;
@@ -104,7 +104,7 @@ public:
 private:
   Heading heading(const PanelSpec& panel) {
     const bool lettered = panel.lettered && figure_.panels.size() > 1;
-    return {lettered ? std::string(1, char('a' + letters_++)) : "", panel.title};
+    return {lettered ? std::string(1, char('a' + letters_++)) : std::string(), panel.title};
   }
 
   std::unique_ptr<Block> block(const PanelSpec& panel) {
@@ -131,23 +131,19 @@ private:
 
   std::unique_ptr<Block> block(const PlotPanel& panel, const Heading& head, int) {
     render::Plot plot;
-    plot.x = {notation_of(panel.x).title(), panel.log_x};
-    plot.y = {panel.y.size() == 1 ? notation_of(panel.y.front()).title() : "", panel.log_y};
+    plot.x.title = notation_of(panel.x).title();
+    plot.y.title = notation_of(panel.y.front()).title();
     std::size_t colors = 0;
     for (std::size_t r = 0; r < panel.runs.size(); ++r) {
       const StoredStates run(find_run_(panel.runs[r]));
       note(panel.runs[r], run.scene());
       if (panel.y == std::vector<std::string>{"terms"}) {
-        const bool log_x = panel.log_x;
         plot = render::energy_plot(run.history(), run.energy_unit());
-        plot.x.logarithmic = log_x;
-        plot.x.range.reset();
         continue;
       }
       for (const std::string& column : panel.y) {
-        render::Series series{
-            name(panel, r, column),
-            curve_colors[colors++ % std::size(curve_colors)]};
+        render::Series series{name(panel, r, column),
+                              curve_colors[colors++ % std::size(curve_colors)]};
         for (const Measures& m : run.history())
           series.points.push_back({value_or_throw(m, panel.x, panel.runs[r]),
                                    value_or_throw(m, column, panel.runs[r])});
@@ -155,6 +151,11 @@ private:
         if (panel.exact) plot.series.push_back(exact_series(run, panel, column));
       }
     }
+    plot.x.logarithmic = panel.log_x;
+    plot.y.logarithmic = panel.log_y;
+    plot.x.range = panel.x_range;
+    plot.y.range = panel.y_range;
+    if (!panel.label.empty()) plot.y.title = panel.label;
     return std::make_unique<render::PlotBlock>(head, std::move(plot));
   }
 

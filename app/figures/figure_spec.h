@@ -38,17 +38,19 @@ struct PlotPanel {
   std::string x = "t";
   std::vector<std::string> y; ///< columns of history.csv, or "terms": the energy by term
   bool log_x = false, log_y = false;
+  std::optional<std::array<double, 2>> x_range, y_range; ///< none: of the data
+  std::string label;  ///< of the y axis; empty: that of the first column
   bool exact = false; ///< the exact solution of a built-in scene too
 };
 
 /// A scene with one key at several values, against what is exact.
 struct Study {
   RunSpec run;
-  std::string vary;                     ///< section.key
-  std::vector<double> values;           ///< as many runs
-  std::vector<std::string> quantities;  ///< columns of history.csv
+  std::string vary;                            ///< section.key
+  std::vector<double> values;                  ///< as many runs
+  std::vector<std::string> quantities;         ///< columns of history.csv
   std::optional<std::array<double, 2>> window; ///< times to average over; none: the end
-  std::vector<double> exact;            ///< of each quantity; empty: the exact solution that is built in
+  std::vector<double> exact; ///< of each quantity; empty: the exact solution that is built in
   std::vector<std::vector<double>> paper; ///< a row for every value, NaN where not known
 };
 struct TablePanel {

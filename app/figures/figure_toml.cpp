@@ -162,7 +162,10 @@ MembranePanel membrane_in(Keys& keys, const std::string& source) {
   panel.run = run_in(keys);
   const std::string times = "times from 0 on, in ascending order";
   keys.take("times", panel.times, times);
-  keys.check("times", !keys.has("times") || (!panel.times.empty() && panel.times.front() >= 0 && ascending(panel.times)), times);
+  keys.check("times",
+             !keys.has("times") ||
+                 (!panel.times.empty() && panel.times.front() >= 0 && ascending(panel.times)),
+             times);
   keys.take("elevation", panel.view.elevation, "degrees from -90 to 90");
   if (panel.view.elevation)
     keys.check("elevation", std::abs(*panel.view.elevation) <= 90, "degrees from -90 to 90");
@@ -180,6 +183,7 @@ PlotPanel plot_in(Keys& keys) {
   keys.require("scenes", scene_text);
   keys.take("scenes", scenes, "scene files or names of built-in scenes");
   keys.take("set", set, set_text);
+  keys.check("scenes", !scenes.empty(), scene_text);
   for (const std::string& scene : scenes) panel.runs.push_back({scene, set});
   keys.take("names", panel.names, "a name for each of the scenes");
   keys.check("names", panel.names.empty() || panel.names.size() == scenes.size(),
@@ -187,6 +191,7 @@ PlotPanel plot_in(Keys& keys) {
   keys.take("x", panel.x, "a column of history.csv");
   keys.require("y", columns_text + ", or \"terms\"");
   keys.take("y", panel.y, columns_text + ", or \"terms\"");
+  keys.check("y", !panel.y.empty(), columns_text + ", or \"terms\"");
   std::vector<std::string> log;
   const std::string axes = "\"x\", \"y\" or both";
   keys.take("log", log, axes);
@@ -194,6 +199,12 @@ PlotPanel plot_in(Keys& keys) {
     keys.check("log", axis == "x" || axis == "y", axes);
     (axis == "x" ? panel.log_x : panel.log_y) = true;
   }
+  const std::string range = "two numbers, the lower one first";
+  keys.take("x_range", panel.x_range, range);
+  keys.take("y_range", panel.y_range, range);
+  if (panel.x_range) keys.check("x_range", (*panel.x_range)[0] < (*panel.x_range)[1], range);
+  if (panel.y_range) keys.check("y_range", (*panel.y_range)[0] < (*panel.y_range)[1], range);
+  keys.take("label", panel.label, "a text");
   keys.take("exact", panel.exact, "true or false");
   return panel;
 }
@@ -216,12 +227,12 @@ Study study_in(Keys& keys) {
                            "where one is not known";
   keys.take("paper", study.paper, rows);
   keys.check("paper",
-             study.paper.empty() ||
-                 (study.paper.size() == study.values.size() &&
-                  std::ranges::all_of(study.paper,
-                                      [&](const auto& row) {
-                                        return row.size() == study.quantities.size();
-                                      })),
+             study.paper.empty() || (study.paper.size() == study.values.size() &&
+                                     std::ranges::all_of(study.paper,
+                                                         [&](const auto& row) {
+                                                           return row.size() ==
+                                                                  study.quantities.size();
+                                                         })),
              rows);
   return study;
 }
@@ -268,8 +279,9 @@ FigureSpec parse_figure(std::string_view text, const std::string& source) {
   keys.refuse_others();
   const toml::array* list = table["panel"].as_array();
   if (!list || list->empty() || !list->is_homogeneous<toml::table>())
-    refuse_scene(source + ":1: there is no panel; allowed: sections [[panel]], each with the keys of "
-                          "a panel");
+    refuse_scene(source +
+                 ":1: there is no panel; allowed: sections [[panel]], each with the keys of "
+                 "a panel");
   for (const toml::node& panel : *list)
     figure.panels.push_back(panel_in(*panel.as_table(), source, figure.columns));
   return figure;

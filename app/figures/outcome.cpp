@@ -19,7 +19,7 @@ namespace lamella {
 namespace {
 
 constexpr double noticeable = 0.04; ///< of the largest radius
-constexpr int bins = 120;
+constexpr std::size_t directions = 120, heights = 40;
 
 /// The maxima of a list that rise above the minima beside them by more than a threshold. Before
 /// and after the list there is 0.
@@ -36,9 +36,10 @@ int count_maxima(const std::vector<double>& values, double threshold) {
   return count;
 }
 
-/// The largest distance from the z axis through the middle, by the bin that `bin_of` gives.
+/// The largest distance from the z axis through the middle, by the bin that `bin_of` gives as a
+/// share; empty ones are like the one before.
 template <class BinOf>
-std::vector<double> largest_radii(vtkPolyData& mesh, BinOf&& bin_of) {
+std::vector<double> largest_radii(vtkPolyData& mesh, std::size_t bins, BinOf&& bin_of) {
   std::array<double, 6> box{};
   mesh.GetBounds(box.data());
   std::vector<double> radii(bins, 0);
@@ -47,14 +48,16 @@ std::vector<double> largest_radii(vtkPolyData& mesh, BinOf&& bin_of) {
     mesh.GetPoint(n, p.data());
     const double x = p[0] - (box[0] + box[1]) / 2, y = p[1] - (box[2] + box[3]) / 2;
     const double s = bin_of(x, y, (p[2] - box[4]) / (box[5] - box[4]));
-    double& radius = radii[std::size_t(std::clamp(int(s * bins), 0, bins - 1))];
+    double& radius = radii[std::min(std::size_t(s * double(bins)), bins - 1)];
     radius = std::max(radius, std::hypot(x, y));
   }
+  for (std::size_t n = 1; n < bins; ++n)
+    if (radii[n] == 0) radii[n] = radii[n - 1];
   return radii;
 }
 
 int count_arms(vtkPolyData& mesh) {
-  std::vector<double> radii = largest_radii(mesh, [](double x, double y, double) {
+  std::vector<double> radii = largest_radii(mesh, directions, [](double x, double y, double) {
     return 0.5 + std::atan2(y, x) / (2 * std::numbers::pi);
   });
   const double largest = std::ranges::max(radii);
@@ -65,14 +68,15 @@ int count_arms(vtkPolyData& mesh) {
 
 int count_beads(vtkPolyData& mesh) {
   const std::vector<double> radii =
-      largest_radii(mesh, [](double, double, double height) { return height; });
+      largest_radii(mesh, heights, [](double, double, double height) { return height; });
   return count_maxima(radii, noticeable * std::ranges::max(radii));
 }
 
 double area_of(vtkPolyData& mesh) {
   double area = 0;
   for (vtkIdType n = 0; n < mesh.GetNumberOfCells(); ++n)
-    if (auto* triangle = vtkTriangle::SafeDownCast(mesh.GetCell(n))) area += triangle->ComputeArea();
+    if (auto* triangle = vtkTriangle::SafeDownCast(mesh.GetCell(n)))
+      area += triangle->ComputeArea();
   return area;
 }
 
@@ -131,8 +135,9 @@ std::vector<std::string> surprises(const render::State& state, const Expectation
   std::vector<std::string> all;
   for (const auto& [name, range] : expect) {
     const std::optional<double> value = outcome_of(state, name);
-    const std::string wanted = range[0] == range[1] ? fmt::format("{:g}", range[0])
-                                                    : fmt::format("{:g} to {:g}", range[0], range[1]);
+    const std::string wanted = range[0] == range[1]
+                                   ? fmt::format("{:g}", range[0])
+                                   : fmt::format("{:g} to {:g}", range[0], range[1]);
     if (!value)
       all.push_back(fmt::format("{} is not known of this run, expected {}", name, wanted));
     else if (!(*value >= range[0] && *value <= range[1]))

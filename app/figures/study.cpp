@@ -33,8 +33,7 @@ double mean(const std::vector<double>& times, const std::array<double, 2>& windo
 
 double column_value(const Measures& measures, const std::string& column) {
   const std::optional<double> value = value_of(measures, column);
-  if (!value)
-    throw SceneError(fmt::format("{}: not a column of this run's history.csv", column));
+  if (!value) throw SceneError(fmt::format("{}: not a column of this run's history.csv", column));
   return *value;
 }
 
@@ -77,9 +76,7 @@ std::string cell(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "–";
 }
 
-std::string minus(std::string text) {
-  return text.starts_with('-') ? "−" + text.substr(1) : text;
-}
+std::string minus(std::string text) { return text.starts_with('-') ? std::string("−").append(text, 1) : text; }
 
 /// For files: without the marks of typesetting.
 std::string bare(std::string text) {
@@ -164,8 +161,7 @@ FigureTable table_of(const Study& study, const StudyResult& result) {
       const double value = result.values[n][q], exact = result.exact[q];
       row.push_back(minus(cell(value, "{:.4f}")));
       row.push_back(minus(cell(value - exact, "{:+.4f}")));
-      if (knows_paper(study, q))
-        row.push_back(minus(cell(study.paper[n][q] - exact, "{:+.3f}")));
+      if (knows_paper(study, q)) row.push_back(minus(cell(study.paper[n][q] - exact, "{:+.3f}")));
     }
     table.cells.push_back(row);
   }
@@ -188,9 +184,8 @@ render::Plot convergence_plot(const Study& study, const StudyResult& result) {
                                    render::style::gaussian_energy, render::style::line_energy,
                                    render::style::stretch_energy};
   const bool grids = study.vary == "grid.nodes";
-  render::Plot plot{{grids ? "grid spacing *h* / *L*" : study.vary, true},
-                    {"relative error", true},
-                    {}};
+  render::Plot plot{
+      {grids ? "grid spacing *h* / *L*" : study.vary, true}, {"relative error", true}, {}};
   for (std::size_t q = 0; q < study.quantities.size(); ++q) {
     const render::Color color = colors[q % std::size(colors)];
     const Notation notation = notation_of(study.quantities[q]);
@@ -225,7 +220,7 @@ std::string FigureTable::csv() const {
     for (const std::string& each : row) {
       std::string value = bare(each);
       if (value == "–") value.clear();
-      if (value.starts_with("−")) value = "-" + value.substr(std::string("−").size());
+      if (value.starts_with("−")) value.replace(0, std::string_view("−").size(), "-");
       plain.push_back(value);
     }
     text += fmt::format("{}\n", fmt::join(plain, ","));

@@ -5,10 +5,10 @@ namespace lamella {
 
 /// What the runs of a study have come to; values are in the order of its quantities.
 struct StudyResult {
-  std::vector<double> exact;            ///< NaN where not known
+  std::vector<double> exact;               ///< NaN where not known
   std::vector<std::vector<double>> values; ///< a row for every run
-  std::vector<double> spacings;         ///< of the runs' grids
-  std::vector<std::string> labels;      ///< of the runs: "64³", or the value
+  std::vector<double> spacings;            ///< of the runs' grids
+  std::vector<std::string> labels;         ///< of the runs: "64³", or the value
 };
 
 /// Throws StoreError, SceneError.

@@ -27,8 +27,7 @@ std::vector<Term> terms(const Measures& m) {
   if (m.stretch) all.push_back({"stretch", style::stretch_energy, m.stretch->energy});
   if (m.pressure_energy) all.push_back({"pressure", style::pressure_energy, *m.pressure_energy});
   if (m.area_difference_energy)
-    all.push_back(
-        {"area difference", style::area_difference_energy, *m.area_difference_energy});
+    all.push_back({"area difference", style::area_difference_energy, *m.area_difference_energy});
   if (m.film_energy) all.push_back({"films", style::film_energy, *m.film_energy});
   return all;
 }

@@ -125,6 +125,15 @@ Strip::Strip(Heading heading, std::vector<Surface> states, const View& view, dou
     palette_.emplace(view_.color, view_.range ? *view_.range : range_of(view_.color, states_));
 }
 
+void draw_keys(Sheet& sheet, const Box& place, double scale, const Palette* palette,
+               Quantity quantity, bool phases, double longest) {
+  if (palette)
+    add_color_bar(sheet, {place.left, place.top}, *palette, quantity);
+  else if (phases)
+    add_legend(sheet, {place.left, place.top});
+  add_scale_bar(sheet, {place.right(), place.top}, scale, longest / scale);
+}
+
 double Strip::height(double width) const { return Layout(*this, width).height(); }
 
 bool Strip::has_phases() const { return std::ranges::any_of(states_, &Surface::has_phases); }
@@ -158,12 +167,9 @@ void Strip::draw_state(Sheet& sheet, const Layout& layout, std::size_t n, const 
 void Strip::draw_footer(Sheet& sheet, const Layout& layout, const Box& place) const {
   const double base = place.top + layout.height() - 30;
   if (view_.section && view_.azimuth == 0) add_axes(sheet, {place.left + 10, base});
-  if (palette_)
-    add_color_bar(sheet, {place.left + (view_.section ? 160 : 0), base}, *palette_, view_.color);
-  else if (has_phases())
-    add_legend(sheet, {place.left + place.width / 2 - legend_width / 2, base});
-  add_scale_bar(sheet, {place.right(), base}, layout.scale,
-                0.45 * std::min(layout.cell, 1000.0) / layout.scale);
+  const double indent = view_.section ? 160 : 0, longest = std::min(place.width, 1.3 * layout.cell);
+  draw_keys(sheet, {place.left + indent, base, place.width - indent, 0}, layout.scale,
+            palette_ ? &*palette_ : nullptr, view_.color, has_phases(), 0.33 * longest);
 }
 
 void Strip::draw(Sheet& sheet, const Box& place, Camera camera) const {

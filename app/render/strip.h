@@ -45,4 +45,9 @@ private:
 /// "*t* = 1.6×10⁻³"
 std::string time_label(double time);
 
+/// Along the upper side of a box: what colours mean, if anything, and at its right end a scale bar,
+/// not longer than `longest`. `scale`: units of the sheet per length of the box.
+void draw_keys(Sheet& sheet, const Box& place, double scale, const Palette* palette,
+               Quantity quantity, bool phases, double longest);
+
 } // namespace lamella::render

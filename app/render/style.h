@@ -20,8 +20,8 @@ constexpr Hue Ld{{226, 92, 80}, {190, 62, 44}}, Lo{{96, 152, 214}, {38, 98, 168}
 
 /// Of energies other than those of a phase.
 constexpr Color line_energy{176, 122, 0}, gaussian_energy{0, 128, 108},
-    stretch_energy{130, 90, 160}, pressure_energy{38, 98, 168},
-    area_difference_energy{0, 128, 108}, film_energy{176, 122, 0};
+    stretch_energy{130, 90, 160}, pressure_energy{38, 98, 168}, area_difference_energy{0, 128, 108},
+    film_energy{176, 122, 0};
 
 constexpr double type_size = 50; ///< 9 pt at 400 pixels per inch
 constexpr double small_type = 44;

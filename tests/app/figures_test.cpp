@@ -1,0 +1,243 @@
+#include "cli.h"
+#include "figures/figure_page.h"
+#include "figures/outcome.h"
+#include "figures/study.h"
+#include "scene/builtin.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace lamella {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// ------------------------------------------------------------------------------- figures' files
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_figure(text, "mine.toml");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(FigureFile, SaysWhatIsWrongAndWhereAndWhatIsRight) {
+  const std::string panel = "[[panel]]\nscene = \"fig9\"\n";
+  EXPECT_THAT(error_of("title = \"x\"\n"), HasSubstr("no panel"));
+  EXPECT_THAT(error_of("titel = \"x\"\n" + panel),
+              AllOf(HasSubstr("mine.toml:1: titel: unknown key"), HasSubstr("\"title\"?")));
+  EXPECT_THAT(error_of(panel + "tims = [0]\n"),
+              AllOf(HasSubstr("mine.toml:3: [panel] tims: unknown key; allowed: kind"),
+                    HasSubstr("\"times\"?")));
+  EXPECT_THAT(error_of("[[panel]]\ntimes = [0]\n"),
+              AllOf(HasSubstr("[panel] scene: is missing"), HasSubstr("built-in scene")));
+  EXPECT_THAT(error_of(panel + "times = [2, 1]\n"),
+              AllOf(HasSubstr("mine.toml:3: [panel] times"), HasSubstr("ascending")));
+  EXPECT_THAT(error_of(panel + "times = \"end\"\n"), HasSubstr("mine.toml:3: [panel] times"));
+  EXPECT_THAT(error_of(panel + "color = \"K_m\"\n"),
+              AllOf(HasSubstr("\"energy_density\""), HasSubstr("did you mean \"K_M\"?")));
+  EXPECT_THAT(error_of(panel + "kind = \"movie\"\n"), HasSubstr("\"convergence\""));
+  EXPECT_THAT(error_of(panel + "elevation = 120\n"), HasSubstr("-90 to 90"));
+  EXPECT_THAT(error_of("columns = 2\n" + panel + "span = 3\n"), HasSubstr("1 to 2"));
+  EXPECT_THAT(error_of(panel + "expect = { arms = [4, 3] }\n"), HasSubstr("[least, most]"));
+  EXPECT_THAT(error_of("[[panel]]\nkind = \"table\"\nscene = \"fig9\"\nvary = \"grid.nodes\"\n"
+                       "values = [48, 64]\nquantities = [\"P\"]\npaper = [[1]]\n"),
+              HasSubstr("[panel] paper"));
+  EXPECT_THAT(error_of("not TOML"), HasSubstr("mine.toml:1: this is not TOML"));
+}
+
+TEST(FigureFile, HoldsAllThatThePaperShows) {
+  std::vector<std::string> names;
+  for (const BuiltinFigure& figure : builtin_figures()) names.emplace_back(figure.name);
+  std::vector<std::string> expected{"baumgart", "table1", "table2", "table3"};
+  for (int n = 3; n <= 15; ++n) expected.push_back("fig" + std::to_string(n));
+  EXPECT_THAT(names, testing::UnorderedElementsAreArray(expected));
+}
+
+class BuiltinFigures : public testing::TestWithParam<BuiltinFigure> {};
+
+TEST_P(BuiltinFigures, NeedScenesThatThereAreAndExpectAnOutcome) {
+  const FigureSpec figure = parse_figure(GetParam().text, std::string(GetParam().name) + ".toml");
+  for (const RunSpec& run : runs_of(figure))
+    EXPECT_NO_THROW(builtin_scene(run.scene, run.set)) << run.scene;
+  for (const PanelSpec& panel : figure.panels) {
+    const auto* membrane = std::get_if<MembranePanel>(&panel.content);
+    if (!membrane) continue;
+    const Scene scene = builtin_scene(membrane->run.scene, membrane->run.set);
+    EXPECT_THAT(membrane->expect, Contains(testing::Key("components")));
+    EXPECT_THAT(membrane->expect, Contains(testing::Key("genus")));
+    ASSERT_FALSE(membrane->times.empty());
+    EXPECT_NEAR(membrane->times.back(), scene.end_time, 1e-9 * scene.end_time);
+    for (const double time : membrane->times) { // is what will be written beside the picture
+      const double frames = time / scene.end_time * (scene.output.frames - 1);
+      EXPECT_NEAR(frames, std::round(frames), 0.25) << membrane->run.scene << " at " << time;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BuiltinFigures,
+                         testing::ValuesIn(builtin_figures().begin(), builtin_figures().end()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+// ------------------------------------------------------------------------------------- outcomes
+
+template <class Phi>
+render::State state_of(Phi&& phi) {
+  render::State state{{Grid::cube(48, 1), 0, {}}};
+  for (std::size_t n = 0; n < state.frame.grid.size(); ++n)
+    state.frame.phi.push_back(phi(state.frame.grid.position(n)));
+  return state;
+}
+
+render::State starfish(int arms, double height) {
+  return state_of([=](const Vec3& p) {
+    const double angle = std::atan2(p[1], p[0]), rho = std::hypot(p[0], p[1]);
+    return std::hypot(rho / (1 + height * std::cos(arms * angle + 0.3)), 3 * p[2]) - 0.6;
+  });
+}
+
+TEST(Outcome, CountsArms) {
+  for (const int arms : {2, 3, 4, 5, 6}) EXPECT_EQ(outcome_of(starfish(arms, 0.15), "arms"), arms);
+  EXPECT_EQ(outcome_of(starfish(3, 0), "arms"), 0);
+}
+
+TEST(Outcome, CountsBeads) {
+  const auto chain = [](int beads) {
+    return state_of([=](const Vec3& p) {
+      const double half = 0.8, phase = (p[2] + half) / (2 * half) * beads * std::numbers::pi;
+      const double neck = 0.12 + 0.1 * std::abs(std::sin(phase));
+      return std::max(std::hypot(p[0], p[1]) - neck, std::abs(p[2]) - half);
+    });
+  };
+  for (const int beads : {2, 3, 5}) EXPECT_EQ(outcome_of(chain(beads), "beads"), beads);
+  EXPECT_EQ(outcome_of(starfish(3, 0), "beads"), 1);
+}
+
+TEST(Outcome, CountsBudsAndNotFlatDomains) {
+  const auto capped = [](double angle) {
+    render::State state =
+        state_of([](const Vec3& p) { return std::hypot(p[0], p[1], p[2]) - 0.6; });
+    for (std::size_t n = 0; n < state.frame.grid.size(); ++n) {
+      const auto [x, y, z] = state.frame.grid.position(n);
+      state.frame.psi.push_back(0.6 * (std::atan2(std::hypot(x, y), z) - angle));
+    }
+    return state;
+  };
+  EXPECT_EQ(outcome_of(capped(0.6), "buds"), 0);
+  EXPECT_EQ(outcome_of(capped(2.2), "buds"), 1) << "more than half a sphere";
+}
+
+TEST(Outcome, IsComparedWithWhatIsExpected) {
+  render::State state{};
+  state.measures.components = 3;
+  state.measures.energy = 49.2;
+  EXPECT_THAT(surprises(state, {{"components", {3, 3}}, {"energy", {49, 50}}}), IsEmpty());
+  EXPECT_THAT(
+      surprises(state, {{"components", {4, 4}}, {"energy", {50, 60}}, {"domains_Ld", {1, 1}}}),
+      ElementsAre("components is 3, expected 4", "domains_Ld is not known of this run, expected 1",
+                  "energy is 49.2, expected 50 to 60"));
+}
+
+// -------------------------------------------------------------------------------------- studies
+
+TEST(StudyOfGrids, FitsTheOrder) {
+  EXPECT_NEAR(fitted_order({{0.1, 3e-3}, {0.05, 3e-3 / 4}, {0.025, 3e-3 / 16}}), 2, 1e-12);
+  EXPECT_TRUE(std::isnan(fitted_order({{0.1, 1}})));
+}
+
+TEST(StudyOfGrids, BecomesATable) {
+  Study study;
+  study.vary = "grid.nodes";
+  study.values = {48, 64};
+  study.quantities = {"P"};
+  study.paper = {{NAN}, {-101.9}};
+  const FigureTable table =
+      table_of(study, {{-106.2}, {{-106.0}, {-106.15}}, {0.04, 0.03}, {"48³", "64³"}});
+  EXPECT_EQ(table.csv(), "grid,pressure P,error,paper's\n48³,-106.0000,+0.2000,\n"
+                         "64³,-106.1500,+0.0500,+4.300\nexact,-106.2000,,\n");
+  EXPECT_THAT(table.markdown(), HasSubstr("| 64³ | −106.1500 | +0.0500 | +4.300 |"));
+}
+
+// ---------------------------------------------------------------------------------- the command
+
+constexpr const char* small_figure = R"(title = "Mine"
+[[panel]]
+scene = "fig3_oblate"
+set = ["grid.nodes=32", "run.end_time=2e-5", "output.frames=3"]
+times = [0, 2e-5]
+expect = { components = 1, genus = GENUS }
+[[panel]]
+kind = "plot"
+scenes = "fig3_oblate"
+set = ["grid.nodes=32", "run.end_time=2e-5", "output.frames=3"]
+y = "energy"
+)";
+
+std::string figure_expecting_genus(const std::string& genus) {
+  std::string text = small_figure;
+  return text.replace(text.find("GENUS"), 5, genus);
+}
+
+TEST_F(Cli, draws_a_figure_and_takes_its_runs_from_the_store_the_next_time) {
+  write(work() / "mine.toml", figure_expecting_genus("0"));
+  const Result first = call(words("figure mine.toml -o out"));
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("1 of 1: fig3_oblate ran in"));
+  EXPECT_EQ(names_in(work() / "out"),
+            (std::set<std::string>{"mine.pdf", "mine.png", "mine.svg", "runs"}));
+  EXPECT_EQ(names_in(work() / "out" / "runs").size(), 1u) << "one run for both panels";
+  const Result second = call(words("figure mine.toml -o out --format png"));
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_EQ(second.out, "mine: mine.png\n");
+}
+
+TEST_F(Cli, tells_an_outcome_that_is_not_as_expected) {
+  write(work() / "mine.toml", figure_expecting_genus("1"));
+  const Result result = call(words("figure mine.toml -o out --format svg"));
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.err,
+            "lamella: mine: panel a, fig3_oblate at t = 2e-05: genus is 0, expected 1\n");
+  EXPECT_TRUE(fs::exists(work() / "out" / "mine.svg"));
+}
+
+TEST_F(Cli, tells_why_a_figure_cannot_be_drawn) {
+  write(work() / "mine.toml", figure_expecting_genus("0"));
+  const Result refused = call(words("figure mine.toml -o out --set grid.nodes=33.5"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_FALSE(fs::exists(work() / "out"));
+  const Result unknown = call(words("figure fig33"));
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("neither a file nor a built-in figure"));
+  const Result late = call(words("figure mine.toml -o out --set run.end_time=1e-6"));
+  EXPECT_EQ(late.code, 2);
+  EXPECT_THAT(late.err, HasSubstr("ends at t = 1e-06, before the time 2e-05"));
+}
+
+TEST_F(Cli, keeps_ended_runs_when_a_figure_is_interrupted) {
+  write(work() / "mine.toml", "[[panel]]\nscene = \"fig9\"\n");
+  const Program program(words("figure mine.toml -o out"), setting_);
+  for (int n = 0; n < 400 && !fs::exists(work() / "out" / "runs"); ++n) usleep(50'000);
+  usleep(300'000);
+  program.interrupt();
+  const Result result = program.wait();
+  EXPECT_EQ(result.code, 130);
+  EXPECT_THAT(result.err, HasSubstr("interrupted"));
+  EXPECT_FALSE(fs::exists(work() / "out" / "mine.png"));
+}
+
+TEST_F(Cli, lists_the_figures) {
+  const Result result = call({"figure"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("fig15 "), HasSubstr("table3 ")));
+}
+
+} // namespace
+} // namespace lamella
