@@ -4,6 +4,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "render/qt_session.h"
+#include "run_folder.h"
 
 #include <QCoreApplication>
 #include <QEventLoop>
@@ -59,13 +60,13 @@ std::string last_line(const QByteArray& text) {
 }
 
 /// Why a process did not do what it should.
-std::string reason(QProcess& process) {
+std::string reason(QProcess& process, const fs::path& folder) {
   if (process.error() == QProcess::FailedToStart) return "could not be started";
   const std::string said = last_line(process.readAllStandardError());
   if (!said.empty()) return said;
-  return process.exitStatus() == QProcess::CrashExit
-             ? "was killed, or crashed"
-             : fmt::format("ended with exit code {}", process.exitCode());
+  if (process.exitStatus() == QProcess::CrashExit) return "was killed, or crashed";
+  return fmt::format("could not go on (exit code {}), see {}", process.exitCode(),
+                     (folder / "summary.txt").string());
 }
 
 /// One run on its way.
@@ -128,10 +129,15 @@ private:
       if (error == QProcess::FailedToStart) ended();
     });
     job->process->setStandardOutputFile(QProcess::nullDevice());
-    job->process->start(QCoreApplication::applicationFilePath(),
-                        {"run", QString::fromStdString(job->order.scene.string()), "-o",
-                         QString::fromStdString(job->order.folder.string()), "--force",
-                         "--no-pictures", "--threads", QString::number(cores_ / at_once)});
+    QStringList arguments{"run"};
+    const QString folder = QString::fromStdString(job->order.folder.string());
+    if (can_be_resumed(job->order.folder)) // an earlier command was interrupted
+      arguments << "--resume" << folder;
+    else
+      arguments << QString::fromStdString(job->order.scene.string()) << "-o" << folder << "--force";
+    arguments << "--no-pictures"
+              << "--threads" << QString::number(cores_ / at_once);
+    job->process->start(QCoreApplication::applicationFilePath(), arguments);
     jobs_.push_back(std::move(job));
   }
 
@@ -145,7 +151,8 @@ private:
     } catch (const StoreError& e) {
       trouble_ = e.what();
     }
-    if (!good && !interrupt_requested()) failed_.push_back({job.scene.name, reason(*job.process)});
+    if (!good && !interrupt_requested())
+      failed_.push_back({job.scene.name, reason(*job.process, job.order.folder)});
     if (good) done_cost_ += expected_cost(job.scene);
     clear_line();
     if (!interrupt_requested())

@@ -193,7 +193,9 @@ private:
   }
 
   std::string caption() const {
-    const std::string title = figure_.title.empty() ? "" : "**" + figure_.title + ".** ";
+    const std::string stop = figure_.title.ends_with('.') ? "" : ".";
+    const std::string title =
+        figure_.title.empty() ? "" : fmt::format("**{}{}** ", figure_.title, stop);
     return fmt::format("{}{} Scenes: {}.", title, figure_.caption, fmt::join(runs_, ", "));
   }
 

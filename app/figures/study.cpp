@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace lamella {
 namespace {
@@ -76,12 +77,28 @@ std::string cell(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "–";
 }
 
-std::string minus(std::string text) { return text.starts_with('-') ? std::string("−").append(text, 1) : text; }
+std::string minus(std::string text) {
+  return text.starts_with('-') ? std::string("−").append(text, 1) : text;
+}
 
 /// For files: without the marks of typesetting.
 std::string bare(std::string text) {
   for (const std::string_view mark : {"*", "_{", "}"})
     for (std::size_t at = 0; (at = text.find(mark)) != text.npos;) text.erase(at, mark.size());
+  return text;
+}
+
+/// What is varied, in words.
+std::string name_of(const std::string& key) {
+  if (key == "grid.nodes") return "grid";
+  return key == "numerics.tolerance" ? "tolerance / *h*" : key;
+}
+
+/// With the marks of Markdown.
+std::string marked(std::string text) {
+  for (const auto& [mark, tag] : {std::pair("_{", "<sub>"), std::pair("}", "</sub>")})
+    for (std::size_t at = 0; (at = text.find(mark)) != text.npos;)
+      text.replace(at, std::string_view(mark).size(), tag);
   return text;
 }
 
@@ -145,7 +162,7 @@ StudyResult evaluate(const Study& study, const RunFinder& find_run) {
 /// A column for each quantity, then its error, and the paper's where that is known.
 FigureTable table_of(const Study& study, const StudyResult& result) {
   FigureTable table;
-  std::vector<std::string> head{study.vary == "grid.nodes" ? "grid" : study.vary};
+  std::vector<std::string> head{name_of(study.vary)};
   std::vector<std::string> last{"exact"};
   for (std::size_t q = 0; q < study.quantities.size(); ++q) {
     head.push_back(notation_of(study.quantities[q]).symbol);
@@ -185,7 +202,8 @@ render::Plot convergence_plot(const Study& study, const StudyResult& result) {
                                    render::style::stretch_energy};
   const bool grids = study.vary == "grid.nodes";
   render::Plot plot{
-      {grids ? "grid spacing *h* / *L*" : study.vary, true}, {"relative error", true}, {}};
+      {grids ? "grid spacing *h* / *L*" : name_of(study.vary), true}, {"relative error", true}, {}};
+  bool paper_is_named = false;
   for (std::size_t q = 0; q < study.quantities.size(); ++q) {
     const render::Color color = colors[q % std::size(colors)];
     const Notation notation = notation_of(study.quantities[q]);
@@ -201,12 +219,12 @@ render::Plot convergence_plot(const Study& study, const StudyResult& result) {
     const double order = fitted_order(ours.points);
     ours.name = notation.symbol.substr(notation.symbol.rfind(' ') + 1);
     if (notation.symbol.find("∫") != std::string::npos) ours.name = notation.symbol;
-    if (std::isfinite(order)) ours.name += fmt::format(", order {:.1f}", order);
+    if (order > 0) ours.name += fmt::format(", order {:.1f}", order);
     ours.dots = paper.dots = true;
     paper.dashed = true;
     paper.width /= 2;
     paper.hollow.assign(paper.points.size(), true);
-    if (!paper.points.empty()) paper.name = "paper";
+    if (!paper.points.empty() && !std::exchange(paper_is_named, true)) paper.name = "paper";
     plot.series.push_back(std::move(ours));
     if (!paper.points.empty()) plot.series.push_back(std::move(paper));
   }
@@ -231,7 +249,7 @@ std::string FigureTable::csv() const {
 std::string FigureTable::markdown() const {
   std::string text;
   for (std::size_t r = 0; r < cells.size(); ++r) {
-    text += fmt::format("| {} |\n", fmt::join(cells[r], " | "));
+    text += marked(fmt::format("| {} |\n", fmt::join(cells[r], " | ")));
     if (r > 0) continue;
     text += "|";
     for (std::size_t c = 0; c < cells[r].size(); ++c) text += c == 0 ? "---|" : "---:|";

@@ -16,7 +16,8 @@ StudyResult evaluate(const Study& study, const RunFinder& find_run);
 
 FigureTable table_of(const Study& study, const StudyResult& result);
 
-/// The errors against the varied value, double logarithmic, with lines of the fitted order.
+/// The errors against the varied value, double logarithmic, with the fitted order
+/// where errors fall.
 render::Plot convergence_plot(const Study& study, const StudyResult& result);
 
 /// The slope of a straight line through the logarithms of points; NaN for less than two.

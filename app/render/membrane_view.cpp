@@ -52,8 +52,9 @@ vtkSmartPointer<vtkFloatArray> facing(vtkPolyData& mesh, const Vec3& toward_eye)
 /// A colour in less light. Its strongest channel fades least: shadows of red stay warm.
 Color shaded(const Color& color, double light) {
   const int strongest = std::max({color.r, color.g, color.b});
+  const double longest_lit = std::pow(light, 0.8);
   const auto channel = [&](int value) {
-    return static_cast<unsigned char>(value * std::pow(light, value == strongest ? 0.8 : 1.0));
+    return static_cast<unsigned char>(value * (value == strongest ? longest_lit : light));
   };
   return {channel(color.r), channel(color.g), channel(color.b)};
 }

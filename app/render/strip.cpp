@@ -82,7 +82,7 @@ struct Strip::Layout {
   Layout(const Strip& strip, double width) {
     const Extent &seen = strip.seen_, &cut = strip.cut_;
     const bool sections = strip.view_.section;
-    beside = sections && seen.height() > 1.4 * seen.width();
+    beside = sections && strip.sections_stand_beside();
     const double count = double(strip.states_.size());
     cell = (width - (count - 1) * gap) / count;
     const double across = beside ? seen.width() + cut.width() + 0.4 * seen.width() : seen.width();
@@ -117,7 +117,7 @@ Strip::Strip(Heading heading, std::vector<Surface> states, const View& view, dou
     sections_.push_back(cross_section(state, view_.azimuth));
     cut_.include(extent_of(sections_.back()));
   }
-  if (view_.section && seen_.height() <= 1.4 * seen_.width()) { // the same x below each other
+  if (view_.section && !sections_stand_beside()) { // the same x below each other
     cut_.low[0] = seen_.low[0];
     cut_.high[0] = seen_.high[0];
   }
@@ -135,6 +135,11 @@ void draw_keys(Sheet& sheet, const Box& place, double scale, const Palette* pale
 }
 
 double Strip::height(double width) const { return Layout(*this, width).height(); }
+
+bool Strip::sections_stand_beside() const {
+  const double tall = states_.size() == 1 ? 0.9 : 1.4; // a single state has the room
+  return seen_.height() > tall * seen_.width();
+}
 
 bool Strip::has_phases() const { return std::ranges::any_of(states_, &Surface::has_phases); }
 

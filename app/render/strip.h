@@ -17,7 +17,7 @@ struct View {
 };
 
 /// Membranes side by side, all at the same scale, with their times, a scale bar and what the
-/// colours mean; cross-sections stand below, or beside shapes taller than wide.
+/// colours mean; cross-sections stand below, or beside where there is room, or shapes are tall.
 class Strip : public Block {
 public:
   /// No view is higher than `tallest`, in units of the sheet.
@@ -31,6 +31,7 @@ private:
                   Camera camera) const;
   void draw_footer(Sheet& sheet, const Layout& layout, const Box& place) const;
   bool has_phases() const;
+  bool sections_stand_beside() const;
 
   Heading heading_;
   std::vector<Surface> states_;

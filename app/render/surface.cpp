@@ -125,9 +125,8 @@ Surface extract_surface(const State& state, Quantity quantity) {
   const std::string name(to_string(quantity));
   if (!surface.mesh->GetPointData()->HasArray(name.c_str()))
     throw RenderError(
-        quantity == Quantity::c
-            ? "colours of c need a scene with local stretch, [stretch] modulus above 0"
-            : "colours of " + name + " need a scene with one phase");
+        "colours of " + name +
+        " need a field that the run does not have; c needs [stretch] modulus above 0");
   if (quantity == Quantity::velocity) project_velocity(*surface.mesh);
   return surface;
 }
