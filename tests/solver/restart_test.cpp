@@ -2,7 +2,7 @@
 #include "scene/builtin.h"
 
 #include <bit>
-#include <cstring>
+#include <cstdint>
 #include <functional>
 #include <gtest/gtest.h>
 #include <memory>
@@ -33,7 +33,8 @@ std::vector<std::uint64_t> bits(const Measures& m) {
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  return std::ranges::equal(a, b, {}, std::bit_cast<std::uint64_t, double>,
+                            std::bit_cast<std::uint64_t, double>);
 }
 
 /// Follows a scene, restarting copies where `interrupt` says so, which must go the same way for so
