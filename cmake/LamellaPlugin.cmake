@@ -23,7 +23,6 @@ paraview_plugin_scan(
 list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../../..") # from the plugin to our libraries
 paraview_plugin_build(
   PLUGINS ${lamella_plugins}
-  AUTOLOAD ${lamella_plugins}
   PLUGINS_FILE_NAME "lamella.plugins.xml"
   RUNTIME_DESTINATION "${CMAKE_INSTALL_BINDIR}"
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
