@@ -1,7 +1,9 @@
 #include "vtkVesiclePipeline.h"
 
 #include <vtkCommand.h>
+#include <vtkDataArray.h>
 #include <vtkDataObject.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -31,11 +33,11 @@ enum Port
 constexpr std::chrono::milliseconds Slice{ 200 }; // of computing between two live pictures
 constexpr double RunShare = 0.9;                  // of an update's progress
 
+/** The time that a state has come to, which may be less than what was asked for. */
 double TimeOf(vtkDataObject& data)
 {
-  vtkInformation* info = data.GetInformation();
-  return info->Has(vtkDataObject::DATA_TIME_STEP()) ? info->Get(vtkDataObject::DATA_TIME_STEP())
-                                                    : 0;
+  vtkDataArray* time = data.GetFieldData()->GetArray("t");
+  return time ? time->GetTuple1(0) : 0;
 }
 
 /** The time that the requesting port asks for; 0 where it asks for none. */
@@ -161,11 +163,12 @@ void vtkVesiclePipeline::UpdateRun(double time)
 void vtkVesiclePipeline::UpdateRunForAWhile()
 {
   vtkInformation* info = this->GetRun()->GetOutputInformation(0);
-  const double* range = info->Get(Pipeline::TIME_RANGE());
+  const double end =
+    info->Has(Pipeline::TIME_RANGE()) ? info->Get(Pipeline::TIME_RANGE())[1] : 0;
   this->SliceEnd = Clock::now() + Slice;
-  this->UpdateRun(range ? range[1] : 0);
+  this->UpdateRun(end);
   const double time = TimeOf(*this->GetRun()->GetOutputDataObject(0));
-  this->Ended = !range || time >= range[1] || time == this->LastTime;
+  this->Ended = time >= end || time == this->LastTime;
   this->LastTime = time;
 }
 

@@ -16,7 +16,7 @@ import zlib
 from xml.sax.saxutils import quoteattr
 
 PARAVIEW, LAMELLA, PLUGIN, FOLDER = sys.argv[1:5]
-SIZE = (1152, 762) # of ParaView's window on a first start
+SIZE = WIDTH, HEIGHT = (1152, 762) # of ParaView's window on a first start
 ABORT_BUTTON = (385, 747)
 PATIENCE = 60 # seconds, for a session
 
@@ -207,6 +207,22 @@ class Window(unittest.TestCase):
         self.screen.save("aborted.png")
         session.finish()
         self.assertRegex(self.state("aborted.pvsm"), r'name="ViewTime"[^>]*>\s*<Element index="0" value="1"')
+
+    def test_live(self):
+        """The picture changes while nothing is asked for."""
+        session = self.play("live", [
+            *menu("menuSources", "Lamella", "Vesicle"),
+            (PROPERTIES + "Live/CheckBox", "set_boolean", "true"),
+            (PROPERTIES + "EndTime/DoubleLineEdit0", "set_string", "1"),
+            APPLY, *save_state("live.pvsm"), ("", "pause", "4000"), *save_state("live_later.pvsm")])
+        session.wait_for_file("live.pvsm")
+        first = self.screen.pixels()
+        session.wait_for_file("live_later.pvsm")
+        later = self.screen.pixels()
+        self.screen.save("live.png")
+        session.finish()
+        middle = slice(HEIGHT // 3, 2 * HEIGHT // 3)
+        self.assertTrue(first[middle] != later[middle], "the picture stays the same")
 
     def test_a_wrong_scene(self):
         file = os.path.join(FOLDER, "wrong.toml")

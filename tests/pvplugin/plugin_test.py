@@ -223,6 +223,16 @@ class States(Session):
                 again.UpdatePipeline()
                 self.assertEqual(again.GetDataInformation(1).GetNumberOfCells(), 2)
 
+    def test_examples_open(self):
+        for name in ("fig3_oblate", "fig9", "fig15a"):
+            simple.LoadState(os.path.join(session.EXAMPLES, name + ".pvsm"))
+            (source,) = simple.GetSources().values()
+            self.assertEqual(source.FileName, name)
+            source.UpdatePipeline()
+            self.assertGreater(source.GetDataInformation().GetNumberOfPoints(), 1000)
+            self.assertEqual(len(simple.GetActiveView().Representations), 2)
+            self.tearDown()
+
     def test_traces_run_again(self):
         smtrace.start_trace()
         vesicle = simple.Vesicle(Nodes=[32, 32, 32], Shape="torus", SpontaneousCurvature=-2)

@@ -10,7 +10,9 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 PLUGIN = os.environ["LAMELLA_PLUGIN"]
-BASELINES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "baselines")
+HERE = os.path.dirname(os.path.abspath(__file__))
+BASELINES = os.path.join(HERE, "baselines")
+EXAMPLES = os.path.join(HERE, "..", "..", "docs", "examples", "paraview")
 
 
 def load_plugin(remote=False):
