@@ -75,7 +75,7 @@ class Parameters(Session):
     CASES = [dict(Shape=shape, Domains=domains, Volume=volume, AreaDifference=difference,
                   Directions=[0, 0, 1], VolumeTargets=[0.5, 0], AreaDifferenceTargets=[1.1, 0])
              for shape, domains, volume, difference in (
-                 ("sphere", "none", "fixed", "free"), ("oblate", "cap", "ramped", "free"),
+                 ("sphere", "none", "free", "free"), ("oblate", "cap", "ramped", "free"),
                  ("ellipsoid", "caps", "free", "free"), ("torus", "none", "fixed", "ramped"))]
 
     @staticmethod
@@ -110,7 +110,7 @@ class Parameters(Session):
         self.assertEqual(missing, set())
 
     def test_lists_arrive(self):
-        proxy = simple.Vesicle(Shape="sphere", Domains="caps", HalfAngle=25,
+        proxy = simple.Vesicle(Shape="sphere", Volume="free", Domains="caps", HalfAngle=25,
                                Directions=[0, 0, 1, 0, 0, -1, 1, 0, 0], LineTension=5)
         proxy.UpdatePipeline()
         self.assertEqual(proxy.GetDataInformation(1).GetNumberOfCells(), 3)
