@@ -17,8 +17,8 @@ from xml.sax.saxutils import quoteattr
 
 PARAVIEW, LAMELLA, PLUGIN, FOLDER = sys.argv[1:5]
 SIZE = WIDTH, HEIGHT = (1152, 762) # of ParaView's window on a first start
-ABORT_BUTTON = (385, 747)
-PATIENCE = 60 # seconds, for a session
+ABORT_BUTTONS = [(x, HEIGHT - 15) for x in range(361, 416, 6)] # where it may be
+PATIENCE = 120 # seconds, for a session
 
 PANEL = "propertiesDock/propertiesPanel/"
 PROPERTIES = PANEL + ("scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/")
@@ -201,7 +201,9 @@ class Window(unittest.TestCase):
             APPLY, *save_state("applied.pvsm"),
             LAST, *save_state("aborted.pvsm")])
         session.wait_for_file("applied.pvsm")
-        click = ["xdotool", "mousemove", *map(str, ABORT_BUTTON), "click", "1"]
+        click = ["xdotool"]
+        for x, y in ABORT_BUTTONS:
+            click += ["mousemove", str(x), str(y), "click", "1"]
         session.wait_for_file("aborted.pvsm", lambda: subprocess.run(
             click, env={**os.environ, "DISPLAY": self.screen.name}, check=True))
         self.screen.save("aborted.png")
