@@ -98,7 +98,7 @@ public:
     render::write_png(file_.parent_path() / image, render::print(page.sheet, width));
     text_ += fmt::format("\n## {}\n\n`lamella figure {}`\n\n![{}]({})\n", figure.title, figure.name,
                          figure.title, image.string());
-    for (const FigureTable& table : page.tables) text_ += "\n" + table.markdown();
+    for (const FigureTable& table : page.tables) text_.append("\n").append(table.markdown());
   }
 
   void write() const {
@@ -123,7 +123,7 @@ bool draw(const FigureSpec& figure, const FigureOptions& options, const RunFinde
     return options.folder / files.back();
   };
   for (const std::string& format : options.formats)
-    write_sheet(file("." + format), page.sheet, 300, options.background);
+    write_sheet(file(fmt::format(".{}", format)), page.sheet, 300, options.background);
   for (std::size_t n = 0; n < page.tables.size(); ++n) {
     const std::string number = page.tables.size() == 1 ? "" : fmt::format("_{}", n + 1);
     write_text_atomically(file(number + ".csv"), page.tables[n].csv());

@@ -56,19 +56,20 @@ std::vector<double> largest_radii(vtkPolyData& mesh, std::size_t bins, BinOf&& b
   return radii;
 }
 
-int count_arms(vtkPolyData& mesh) {
-  std::vector<double> radii = largest_radii(mesh, directions, [](double x, double y, double) {
-    return 0.5 + std::atan2(y, x) / (2 * std::numbers::pi);
-  });
+int count_arms(const render::Surface& surface) {
+  std::vector<double> radii =
+      largest_radii(*surface.mesh, directions, [](double x, double y, double) {
+        return 0.5 + std::atan2(y, x) / (2 * std::numbers::pi);
+      });
   const double largest = std::ranges::max(radii);
   if (std::ranges::min(radii) > (1 - noticeable) * largest) return 0;
   std::ranges::rotate(radii, std::ranges::min_element(radii)); // so that no arm is cut in two
   return count_maxima(radii, noticeable * largest);
 }
 
-int count_beads(vtkPolyData& mesh) {
+int count_beads(const render::Surface& surface) {
   const std::vector<double> radii =
-      largest_radii(mesh, heights, [](double, double, double height) { return height; });
+      largest_radii(*surface.mesh, heights, [](double, double, double height) { return height; });
   return count_maxima(radii, noticeable * std::ranges::max(radii));
 }
 
@@ -99,9 +100,9 @@ double rim_of(vtkPolyData& mesh) {
   return length;
 }
 
-int count_buds(vtkPolyData& mesh) {
+int count_buds(const render::Surface& surface) {
   int buds = 0;
-  for (const render::Patch& patch : render::patches(mesh)) {
+  for (const render::Patch& patch : surface.parts) {
     if (patch.part != render::Part::Ld) continue;
     vtkNew<vtkPolyDataConnectivityFilter> pieces;
     pieces->SetInputData(patch.mesh);
@@ -124,10 +125,10 @@ int count_buds(vtkPolyData& mesh) {
 } // namespace
 
 std::optional<double> outcome_of(const render::State& state, const std::string& name) {
-  const std::map<std::string, int (*)(vtkPolyData&)> counts{
+  const std::map<std::string, int (*)(const render::Surface&)> counts{
       {"arms", count_arms}, {"beads", count_beads}, {"buds", count_buds}};
   if (const auto count = counts.find(name); count != counts.end())
-    return count->second(*render::extract_surface(state.frame).mesh);
+    return count->second(render::extract_surface(state.frame));
   return value_of(state.measures, name);
 }
 

@@ -104,7 +104,7 @@ vtkSmartPointer<vtkActor> membrane_actor(vtkPolyData& mesh, const Paint& paint,
 void add_membrane(vtkRenderer& renderer, const Surface& surface, const Coloring& coloring,
                   const Vec3& toward_eye) {
   if (coloring.quantity == Quantity::phase) {
-    for (const Patch& patch : patches(*surface.mesh)) {
+    for (const Patch& patch : surface.parts) {
       const Color color = hue(patch.part).surface;
       const Paint paint = [=](vtkIdType) { return color; };
       renderer.AddActor(membrane_actor(*patch.mesh, paint, toward_eye));

@@ -82,8 +82,9 @@ Surface extract(vtkImageData& image, const Frame& frame, bool with_curvatures) {
   vtkNew<vtkMembraneSurface> membrane;
   membrane->SetRefinement(std::clamp(int(std::ceil(wanted)), 1, largest_refinement));
   membrane->SetComputeCurvatures(with_curvatures);
-  Surface surface{frame.time, output_of(*membrane, image), nullptr};
+  Surface surface{frame.time, output_of(*membrane, image), {}, nullptr};
   add_occlusion(*surface.mesh, frame, 0.12 * size);
+  surface.parts = patches(*surface.mesh);
   if (!frame.psi.empty()) surface.boundary = output_of(*vtkNew<vtkPhaseBoundary>(), image);
   return surface;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "dynamics/measures.h"
+#include "render/phases.h"
 #include "scene/scene.h"
 #include "store/frame.h"
 
@@ -24,6 +25,7 @@ struct Surface {
   /// From vtkMembraneSurface, with more point data: "occlusion", from 0 (open) to 1 (hidden in a
   /// dimple, a neck or between two membranes). With phases the scalars are psi.
   vtkSmartPointer<vtkPolyData> mesh;
+  std::vector<Patch> parts;              ///< the mesh phase by phase
   vtkSmartPointer<vtkPolyData> boundary; ///< from vtkPhaseBoundary; null with one phase
 
   bool has_phases() const { return boundary != nullptr; }

@@ -233,6 +233,26 @@ TEST_F(Cli, keeps_ended_runs_when_a_figure_is_interrupted) {
   EXPECT_FALSE(fs::exists(work() / "out" / "mine.png"));
 }
 
+// ---------------------------------------------------------------------------------- lamella movie
+
+TEST_F(Cli, makes_a_movie_or_pictures) {
+  ASSERT_EQ(call(quick({"-o", "run"})).code, 0);
+  const Arguments small = words("--seconds 0.4 --rate 10 --width 240 --height 200 --turntable");
+  const Result pictures = call(words("movie run -o pictures", small));
+  EXPECT_EQ(pictures.code, 0) << pictures.err;
+  EXPECT_EQ(pictures.out, "pictures\n");
+  EXPECT_EQ(names_in(work() / "pictures").size(), 4u);
+  const Result movie = call(words("movie run", small));
+  EXPECT_EQ(movie.code, 0) << movie.err;
+  if (movie.err.empty())
+    EXPECT_THAT(text_of(work() / "run" / "movie.mp4").substr(4, 4), "ftyp");
+  else
+    EXPECT_EQ(names_in(work() / "run" / "movie").size(), 4u) << "without ffmpeg";
+  EXPECT_FALSE(names_in(work() / "run").contains("movie.mp4.part"));
+  EXPECT_EQ(call(words("movie run --width 241")).code, 2);
+  EXPECT_EQ(call(words("movie nothing")).code, 4);
+}
+
 TEST_F(Cli, lists_the_figures) {
   const Result result = call({"figure"});
   EXPECT_EQ(result.code, 0);
