@@ -31,11 +31,11 @@ struct RenderCommandOptions {
   render::PictureOptions pictures;
 };
 
-/// Draws the pictures of a stored run and returns their files. Throws UsageError for a folder that
-/// holds no run, StoreError, RenderError.
+/// Draws the pictures of a stored run and returns their files. Throws StoreError, RenderError.
 std::vector<std::filesystem::path> draw_pictures(const RenderCommandOptions& options);
 
-/// The same as a command: lists the files. Returns an ExitCode.
+/// The same as a command: lists the files. Returns an ExitCode; throws UsageError too for a folder
+/// that holds no run.
 int redraw(const RenderCommandOptions& options);
 
 /// Tells a person what is in a run's folder, a frame or a checkpoint. Returns an ExitCode; throws

@@ -6,6 +6,7 @@
 #include "progress.h"
 #include "render/qt_session.h"
 #include "render/still.h"
+#include "run_folder.h"
 #include "usage_error.h"
 
 #include <QProcess>
@@ -122,13 +123,14 @@ std::unique_ptr<Film> film_for(fs::path& output, const MovieOptions& options) {
 
 void check(const MovieOptions& options) {
   if (options.width % 2 != 0 || options.height % 2 != 0)
-    throw UsageError("--size: movies need an even width and height");
+    throw UsageError("--width, --height: movies need even numbers of pixels");
 }
 
 } // namespace
 
 int movie(const MovieOptions& options) {
   check(options);
+  require_run(options.folder);
   watch_for_interrupt();
   render::Studio studio(options.backend);
   render::begin_qt();

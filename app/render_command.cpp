@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include "exit_code.h"
+#include "run_folder.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@ std::vector<std::filesystem::path> draw_pictures(const RenderCommandOptions& opt
 }
 
 int redraw(const RenderCommandOptions& options) {
+  require_run(options.folder);
   for (const auto& file : draw_pictures(options)) fmt::print("{}\n", file.string());
   return success;
 }

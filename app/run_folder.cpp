@@ -265,6 +265,13 @@ std::optional<fs::path> end_of_run(const fs::path& folder) {
   });
 }
 
+void require_run(const fs::path& folder) {
+  or_store_error(folder, "cannot be read", [&] {
+    if (!fs::is_directory(folder)) throw UsageError(folder.string() + ": no such folder");
+    if (!holds_run(folder)) throw UsageError(folder.string() + ": holds no run");
+  });
+}
+
 bool can_be_resumed(const fs::path& folder) {
   return or_store_error(folder, "cannot be read",
                         [&] { return fs::is_regular_file(folder / scene_file); });

@@ -84,6 +84,9 @@ private:
 /// StoreError for one that cannot be read.
 std::optional<std::filesystem::path> end_of_run(const std::filesystem::path& folder);
 
+/// Throws UsageError for a folder that holds no run.
+void require_run(const std::filesystem::path& folder);
+
 /// Whether there is a run that can be resumed, perhaps only from its start. Throws StoreError.
 bool can_be_resumed(const std::filesystem::path& folder);
 

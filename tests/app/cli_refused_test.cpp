@@ -20,7 +20,7 @@ void PrintTo(const BadCall& bad, std::ostream* out) { *out << bad.name; }
 
 const std::vector<BadCall> bad_calls{
     {"Command", {"rnu", "sphere"}, "did you mean \"run\"?"},
-    {"SceneAsCommand", {"sphere"}, "allowed: run, render, scenes"},
+    {"SceneAsCommand", {"sphere"}, "allowed: run, render, figure"},
     {"NoScene", {"run"}, "scene is required"},
     {"Option", {"run", "sphere", "--treads", "2"}, "did you mean \"--threads\"?"},
     {"OptionBeforeTheCommand", {"--treads"}, "--treads: no such option"},

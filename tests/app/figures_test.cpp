@@ -250,7 +250,7 @@ TEST_F(Cli, makes_a_movie_or_pictures) {
     EXPECT_EQ(names_in(work() / "run" / "movie").size(), 4u) << "without ffmpeg";
   EXPECT_FALSE(names_in(work() / "run").contains("movie.mp4.part"));
   EXPECT_EQ(call(words("movie run --width 241")).code, 2);
-  EXPECT_EQ(call(words("movie nothing")).code, 4);
+  EXPECT_EQ(call(words("movie nothing")).code, 2);
 }
 
 TEST_F(Cli, lists_the_figures) {
