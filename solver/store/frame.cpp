@@ -103,7 +103,8 @@ void put_frame(hid_t root, const Frame& frame) {
 
 void write_frame(const std::filesystem::path& file, const Frame& frame) {
   check_frame(file, frame);
-  write_h5(file, frame.phi.size(), [&](hid_t root) { put_frame(root, frame); });
+  const std::size_t size = (frame.phi.size() + frame.psi.size() + frame.c.size()) * sizeof(double);
+  write_h5(file, size, [&](hid_t root) { put_frame(root, frame); });
 }
 
 namespace {

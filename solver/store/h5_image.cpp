@@ -5,6 +5,7 @@
 #include "store/posix_file.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -20,32 +21,27 @@ constexpr const char* in_memory = "file in memory";
 constexpr std::size_t longest_text = 1 << 16;
 constexpr std::uintmax_t largest_file = std::uintmax_t(1) << 36;
 
-constexpr std::string_view trailer_mark = "lamella frame, FNV-1a ";
+constexpr std::string_view trailer_mark = "lamella frame, XXH3 ";
 constexpr std::size_t trailer_size = trailer_mark.size() + 16 + 1;
 
-/// FNV-1a over 64 bits.
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const std::byte b : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(b)) * 0x100000001b3;
-  return hash;
-}
-
 std::string trailer(std::span<const std::byte> image) {
-  return fmt::format("{}{:016x}\n", trailer_mark, checksum(image));
+  return fmt::format("{}{:016x}\n", trailer_mark, XXH3_64bits(image.data(), image.size()));
 }
 
 /// The bytes of an HDF5 file.
 std::vector<std::byte> compose(std::size_t size, const std::function<void(hid_t)>& fill) {
   const H5Session session;
   const H5Handle access = owned(H5Pcreate(H5P_FILE_ACCESS));
-  const std::size_t growth = std::max<std::size_t>(1 << 16, size / 4);
+  const std::size_t growth = size + (1 << 16);
   required(H5Pset_fapl_core(access, growth, false));
   const H5Handle creator = creation(H5P_FILE_CREATE);
   const H5Handle file = owned(H5Fcreate(in_memory, H5F_ACC_TRUNC, creator, access));
   fill(file);
   required(H5Fflush(file, H5F_SCOPE_GLOBAL));
-  std::vector<std::byte> image(
-      static_cast<std::size_t>(required(H5Fget_file_image(file, nullptr, 0))));
+  std::vector<std::byte> image;
+  const auto length = static_cast<std::size_t>(required(H5Fget_file_image(file, nullptr, 0)));
+  image.reserve(length + trailer_size);
+  image.resize(length);
   required(H5Fget_file_image(file, image.data(), image.size()));
   return image;
 }

@@ -4,9 +4,9 @@
 #include "fuzz.h"
 #include "scene/builtin.h"
 #include "store/checkpoint.h"
-#include "store/run_status.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <filesystem>
 #include <fstream>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t trailer_size = 39; // "lamella frame, FNV-1a ", 16 digits, a newline
+constexpr std::size_t trailer_size = 37; // "lamella frame, XXH3 ", 16 digits, a newline
 
 fs::path scratch() {
   static const fs::path file =
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   if (data[0] % 2 == 1 && bytes.size() > fuzz::trailer_size) {
     bytes.resize(bytes.size() - fuzz::trailer_size);
-    bytes += fmt::format("lamella frame, FNV-1a {}\n", hash_of(bytes));
+    bytes += fmt::format("lamella frame, XXH3 {:016x}\n", XXH3_64bits(bytes.data(), bytes.size()));
   }
   std::ofstream(fuzz::scratch(), std::ios::binary) << bytes;
   try {

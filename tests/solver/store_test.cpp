@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <xxhash.h>
 
 #include <bit>
 #include <cmath>
@@ -117,11 +118,9 @@ protected:
   fs::path file() const { return folder_ / "frame_0001.hdf"; }
 
   static std::string checksum_line(std::string_view image) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const unsigned char c : image) hash = (hash ^ c) * 0x100000001b3;
     char line[64];
-    std::snprintf(line, sizeof line, "lamella frame, FNV-1a %016llx\n",
-                  static_cast<unsigned long long>(hash));
+    std::snprintf(line, sizeof line, "lamella frame, XXH3 %016llx\n",
+                  static_cast<unsigned long long>(XXH3_64bits(image.data(), image.size())));
     return line;
   }
 
