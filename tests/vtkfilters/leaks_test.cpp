@@ -14,7 +14,9 @@
 #include <vtkVesicleSource.h>
 #include <vtkWeakPointer.h>
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 #include <malloc.h>
 #include <unistd.h>
 
@@ -39,10 +41,15 @@ protected:
     constexpr double allowed = 1000; // bytes a round: 16^3 numbers are 32768
     Watched watched;
     for (int n = 0; n < 3; ++n) run(watched); // what is made once
-    const double before = memory_in_use();
-    for (int n = 0; n < rounds; ++n) run(watched);
-    watched.shrink_to_fit();
-    EXPECT_LT((memory_in_use() - before) / rounds, allowed);
+    // A leak grows every time. What the threads keep for themselves, they keep once.
+    double least = std::numeric_limits<double>::infinity();
+    for (int batch = 0; batch < 3 && least >= allowed; ++batch) {
+      const double before = memory_in_use();
+      for (int n = 0; n < rounds; ++n) run(watched);
+      watched.shrink_to_fit();
+      least = std::min(least, (memory_in_use() - before) / rounds);
+    }
+    EXPECT_LT(least, allowed);
     ASSERT_FALSE(watched.empty());
     for (const auto& object : watched) EXPECT_EQ(object, nullptr) << object->GetClassName();
   }
