@@ -12,7 +12,7 @@ from paraview import simple
 
 def free_port():
     with socket.socket() as probe:
-        probe.bind(("localhost", 0))
+        probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
 
 
@@ -24,7 +24,7 @@ class Server(unittest.TestCase):
         for line in self.server.stdout:
             if "Accepting connection" in line:
                 break
-        simple.Connect("localhost", port)
+        simple.Connect("127.0.0.1", port)
         session.load_plugin(remote=True)
         session.load_plugin()
 
