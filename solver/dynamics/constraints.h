@@ -15,7 +15,7 @@ using Quantities = Eigen::Vector4d;
 Quantities quantities(const SurfaceIntegrals& integrals);
 
 /// Coefficients of 1, K_M, K, q K_M in the normal velocity: P, sigma, 2 h sigma_DA (Eq. 80), and
-/// what the tension of Ld is above that of Lo, which sigma is with phases; q is the share of Ld.
+/// what the tension of Ld is in the mean above that of Lo; q is the share of Ld.
 using Multipliers = Eigen::Vector4d;
 
 /// First-order change of the quantities by a normal displacement u, from int u dA, int K_M u dA,
