@@ -20,7 +20,9 @@ vtkStandardNewMacro(vtkPhaseBoundary);
 
 namespace
 {
-constexpr double BandHalfWidth = 4.2; // spacings, as the solver's own
+// Spacings. The corners of cells that the membrane passes through are at most sqrt(3) away; the trace
+// does not look at what is farther.
+constexpr double BandHalfWidth = 2;
 
 lamella::PhaseBoundary Trace(const lamella::Frame& frame)
 {

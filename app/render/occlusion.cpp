@@ -1,5 +1,10 @@
 #include "render/occlusion.h"
 
+#include "parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
 namespace lamella::render {
 namespace {
 
@@ -23,20 +28,38 @@ std::vector<double> gaussian(double sigma) {
   return weights;
 }
 
+/// The blurred values of a row of nodes, `width` of them side by side, from a copy that goes on
+/// beyond both ends.
+void blur_row(const std::vector<double>& padded, std::size_t width,
+              const std::vector<double>& weights, std::vector<double>& out) {
+  const double* const middle = &padded[(weights.size() - 1) * width];
+  for (std::size_t q = 0; q < out.size(); ++q) out[q] = weights[0] * middle[q];
+  for (std::size_t d = 1; d < weights.size(); ++d) {
+    const double weight = weights[d];
+    const double *before = middle - d * width, *after = middle + d * width;
+    for (std::size_t q = 0; q < out.size(); ++q) out[q] += weight * (before[q] + after[q]);
+  }
+}
+
 /// Blur along one axis; `inner` values lie between neighbours along it.
 void blur(std::vector<double>& values, int nodes, std::size_t inner,
           const std::vector<double>& weights) {
-  const std::vector<double> in = values;
-  for (std::size_t first = 0; first < in.size(); first += nodes * inner)
-    for (int i = 0; i < nodes; ++i) {
-      double* row = &values[first + i * inner];
-      std::fill_n(row, inner, 0.0);
-      for (int d = 1 - int(weights.size()); d < int(weights.size()); ++d) {
-        const double* from = &in[first + std::clamp(i + d, 0, nodes - 1) * inner];
-        const double weight = weights[std::abs(d)];
-        for (std::size_t q = 0; q < inner; ++q) row[q] += weight * from[q];
-      }
-    }
+  constexpr std::size_t widest = 64; // what is worked on stays in the cache
+  const int reach = int(weights.size()) - 1;
+  const std::size_t bands = (inner + widest - 1) / widest, block = nodes * inner;
+  const auto blur_band = [&](std::size_t n) {
+    const std::size_t left = n % bands * widest, width = std::min(widest, inner - left);
+    double* const band = &values[n / bands * block + left];
+    std::vector<double> padded((nodes + 2 * reach) * width), out(nodes * width);
+    for (int i = -reach; i < nodes + reach; ++i)
+      std::copy_n(band + std::clamp(i, 0, nodes - 1) * inner, width, &padded[(i + reach) * width]);
+    blur_row(padded, width, weights, out);
+    for (int i = 0; i < nodes; ++i) std::copy_n(&out[i * width], width, band + i * inner);
+  };
+  const std::size_t grain = std::max<std::size_t>(1, 16384 / block);
+  parallel_for(values.size() / block * bands, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) blur_band(n);
+  });
 }
 
 Frame blurred_inside(const Frame& frame, double radius) {

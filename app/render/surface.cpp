@@ -3,6 +3,7 @@
 #include "fields/image.h"
 #include "fields/refine.h"
 #include "fields/state_data.h"
+#include "parallel.h"
 #include "render/labels.h"
 #include "render/occlusion.h"
 #include "render/render.h"
@@ -60,16 +61,21 @@ double half_size(const Frame& frame) {
 
 void add_occlusion(vtkPolyData& mesh, const Frame& frame, double radius) {
   const Occlusion occlusion(crop(frame, 2 * radius + 4 * frame.grid.spacing), radius);
-  vtkDataArray* normals = mesh.GetPointData()->GetNormals();
+  auto* normals = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetNormals());
   vtkNew<vtkFloatArray> shade;
   shade->SetName("occlusion");
   shade->SetNumberOfTuples(mesh.GetNumberOfPoints());
-  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n) {
-    Vec3 p, normal;
-    mesh.GetPoint(n, p.data());
-    normals->GetTuple(n, normal.data());
-    shade->SetValue(n, float(occlusion.at(p, normal)));
-  }
+  const float* const normal = normals->GetPointer(0);
+  float* const out = shade->GetPointer(0);
+  parallel_for(std::size_t(mesh.GetNumberOfPoints()), 1024,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t n = begin; n < end; ++n) {
+                   Vec3 p;
+                   mesh.GetPoints()->GetPoint(vtkIdType(n), p.data());
+                   const float* const m = normal + 3 * n;
+                   out[n] = float(occlusion.at(p, {m[0], m[1], m[2]}));
+                 }
+               });
   mesh.GetPointData()->AddArray(shade);
 }
 

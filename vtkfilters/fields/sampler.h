@@ -37,6 +37,13 @@ private:
     return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * grid_.spacing);
   }
 
+  /// Of a cell. Points on edges of the lattice, as those of contours, have two neighbours, and not
+  /// six more of hardly any weight because their coordinates are rounded to floats.
+  static constexpr double rounding = 1e-5;
+
+  /// In [0, 1].
+  static double snapped(double t) { return t < rounding ? 0 : t > 1 - rounding ? 1 : t; }
+
   template <class Node>
   double interpolate(const Vec3& p, Node&& node) const {
     std::array<int, 3> base;
@@ -44,7 +51,7 @@ private:
     for (int a = 0; a < 3; ++a) {
       const double x = (p[a] - grid_.origin(a)) / grid_.spacing;
       base[a] = std::clamp(int(std::floor(x)), 0, std::max(0, grid_.nodes[a] - 2));
-      t[a] = std::clamp(x - base[a], 0.0, 1.0);
+      t[a] = snapped(x - base[a]);
     }
     double sum = 0;
     for (int c = 0; c < 8; ++c) {
