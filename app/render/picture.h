@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace lamella::render {
@@ -18,8 +19,8 @@ struct Picture {
   const Color& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
 };
 
-/// The picture made smaller by a whole factor that divides both sides: each pixel is the mean of
-/// factor^2.
-Picture reduce(const Picture& picture, int factor);
+/// An image as OpenGL has it, rows from the bottom, made smaller by a whole factor that divides
+/// both sides: each pixel is the mean of factor^2.
+Picture reduce(std::span<const Color> image, int width, int factor);
 
 } // namespace lamella::render

@@ -3,9 +3,6 @@
 #include "render/render.h"
 #include "vtkLamellaOffscreen.h"
 
-#include <vtkNew.h>
-#include <vtkUnsignedCharArray.h>
-
 #include <algorithm>
 
 namespace lamella::render {
@@ -17,19 +14,6 @@ constexpr int oversampling = 2;
 
 /// The most that llvmpipe's framebuffers can be wide or high.
 constexpr int largest_side = 16384;
-
-/// The window's pixels, rows from the top.
-Picture read_pixels(vtkRenderWindow& window, int width, int height) {
-  vtkNew<vtkUnsignedCharArray> bytes;
-  window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, bytes);
-  Picture picture{width, height, std::vector<Color>(std::size_t(width) * height)};
-  if (bytes->GetNumberOfValues() != vtkIdType(4 * picture.pixels.size()))
-    throw RenderError("the picture could not be read back from OpenGL");
-  const auto* row = reinterpret_cast<const Color*>(bytes->GetPointer(0));
-  for (int y = height - 1; y >= 0; --y, row += width)
-    std::copy_n(row, width, &picture.pixels[std::size_t(y) * width]);
-  return picture;
-}
 
 } // namespace
 
@@ -49,9 +33,13 @@ Picture Studio::shoot(vtkRenderer& renderer, int width, int height) {
   window_->SetSize(width * factor, height * factor);
   window_->AddRenderer(&renderer);
   window_->Render();
-  const Picture picture = read_pixels(*window_, width * factor, height * factor);
+  window_->GetRGBACharPixelData(0, 0, width * factor - 1, height * factor - 1, 0, bytes_);
   window_->RemoveRenderer(&renderer);
-  return reduce(picture, factor);
+  const std::size_t count = std::size_t(width) * height * factor * factor;
+  if (bytes_->GetNumberOfValues() != vtkIdType(4 * count))
+    throw RenderError("the picture could not be read back from OpenGL");
+  const auto* pixels = reinterpret_cast<const Color*>(bytes_->GetPointer(0));
+  return reduce({pixels, count}, width * factor, factor);
 }
 
 } // namespace lamella::render

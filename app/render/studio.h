@@ -1,9 +1,11 @@
 #pragma once
 #include "render/picture.h"
 
+#include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <string>
 
@@ -20,6 +22,7 @@ public:
 
 private:
   vtkSmartPointer<vtkRenderWindow> window_;
+  vtkNew<vtkUnsignedCharArray> bytes_; ///< of the last picture: memory to use again
 };
 
 } // namespace lamella::render
