@@ -1,5 +1,6 @@
 #include "render/membrane_view.h"
 
+#include "parallel.h"
 #include "render/phases.h"
 #include "render/style.h"
 
@@ -8,7 +9,6 @@
 #include <vtkCamera.h>
 #include <vtkClipPolyData.h>
 #include <vtkFloatArray.h>
-#include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
@@ -18,6 +18,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -27,15 +28,39 @@ namespace {
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// A distant light from a direction given in view axes: right, up, toward the eye.
-void add_light(vtkRenderer& renderer, const Viewpoint& viewpoint, const Vec3& from,
-               double intensity) {
-  vtkNew<vtkLight> light;
-  light->SetLightTypeToSceneLight();
-  light->SetPosition(viewpoint.lift(from).data());
-  light->SetFocalPoint(0, 0, 0);
-  light->SetIntensity(intensity);
-  renderer.AddLight(light);
+/// A distant light, from a direction in view axes: right, up, toward the eye.
+struct Light {
+  Vec3 from;
+  double intensity;
+};
+
+Light light(const Vec3& from, double intensity) {
+  const double length = std::hypot(from[0], from[1], from[2]);
+  return {{from[0] / length, from[1] / length, from[2] / length}, intensity};
+}
+
+const std::array lights{light({-0.45, 0.80, 0.65}, 0.68),  // key, from the upper left
+                        light({0.75, 0.10, 0.65}, 0.30),   // fill, from the right
+                        light({0.05, -0.70, 0.40}, 0.22)}; // as paper would reflect, from below
+
+/// What a matte surface sends to the eye: of its colour, and of white.
+struct Brightness {
+  double color, white;
+};
+
+/// Phong's model, at a normal in view axes.
+Brightness brightness(const Vec3& normal) {
+  constexpr double ambient = 0.44, diffuse = 0.72, specular = 0.07;
+  Brightness sum{ambient, 0};
+  for (const auto& [from, intensity] : lights) {
+    const double lit = dot(normal, from);
+    if (lit <= 0) continue;
+    const double mirrored = std::max(0.0, 2 * lit * normal[2] - from[2]);
+    const double cubed = mirrored * mirrored * mirrored; // the ninth power makes it matte
+    sum.color += diffuse * intensity * lit;
+    sum.white += specular * intensity * cubed * cubed * cubed;
+  }
+  return sum;
 }
 
 /// Where a mesh with normals faces the eye: 1 where straight, less than 0 where not.
@@ -62,59 +87,73 @@ Color shaded(const Color& color, double light) {
 /// The colour of a point in full light.
 using Paint = std::function<Color(vtkIdType)>;
 
-/// The membrane's colour at every point: darker where little ambient light comes in, and toward the
-/// rim, which sets the shape off against the white paper.
+Color lit(const Color& color, const Brightness& brightness) {
+  const auto channel = [&](int value) {
+    const double sent = value * brightness.color + 255 * brightness.white;
+    return static_cast<unsigned char>(std::min(255.0, sent + 0.5));
+  };
+  return {channel(color.r), channel(color.g), channel(color.b)};
+}
+
+/// The membrane's colour as seen at every point: darker where little ambient light comes in, and
+/// toward the rim, which sets the shape off against the white paper. Between points of a mesh this
+/// fine colours are linear; to light every sample of a picture takes OpenGL in software as long as
+/// all the rest.
 vtkSmartPointer<vtkUnsignedCharArray> tone(vtkPolyData& mesh, const Paint& paint,
-                                           const Vec3& toward_eye) {
-  const auto cosine = facing(mesh, toward_eye);
+                                           const Viewpoint& viewpoint) {
+  auto* normals = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetNormals());
   auto* occlusion = vtkFloatArray::SafeDownCast(mesh.GetPointData()->GetArray("occlusion"));
   auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
   colors->SetNumberOfComponents(3);
   colors->SetNumberOfTuples(mesh.GetNumberOfPoints());
-  unsigned char* out = colors->GetPointer(0);
-  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n, out += 3) {
-    const double away = 1 - std::clamp(double(cosine->GetValue(n)), 0.0, 1.0);
-    const double open = 1 - 0.5 * occlusion->GetValue(n);
-    const double light = open * (1 - 0.18 * away * away * away);
-    const Color seen = shaded(paint(n), light);
-    out[0] = seen.r, out[1] = seen.g, out[2] = seen.b;
-  }
+  const float* const normal = normals->GetPointer(0);
+  unsigned char* const out = colors->GetPointer(0);
+  const Vec3 toward_eye = viewpoint.lift({0, 0, 1});
+  parallel_for(std::size_t(mesh.GetNumberOfPoints()), 1024,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t n = begin; n < end; ++n) {
+                   const Vec3 m{normal[3 * n], normal[3 * n + 1], normal[3 * n + 2]};
+                   const auto [right, up] = viewpoint.project(m);
+                   const double facing = dot(m, toward_eye);
+                   const double away = 1 - std::clamp(facing, 0.0, 1.0);
+                   const double open = 1 - 0.5 * occlusion->GetValue(vtkIdType(n));
+                   const double light = open * (1 - 0.18 * away * away * away);
+                   const Color seen =
+                       lit(shaded(paint(vtkIdType(n)), light), brightness({right, up, facing}));
+                   out[3 * n] = seen.r, out[3 * n + 1] = seen.g, out[3 * n + 2] = seen.b;
+                 }
+               });
   return colors;
 }
 
 vtkSmartPointer<vtkActor> membrane_actor(vtkPolyData& mesh, const Paint& paint,
-                                         const Vec3& toward_eye) {
+                                         const Viewpoint& viewpoint) {
   vtkNew<vtkPolyData> toned;
-  toned->ShallowCopy(&mesh);
-  toned->GetPointData()->SetScalars(tone(*toned, paint, toward_eye));
+  toned->CopyStructure(&mesh);
+  toned->GetPointData()->SetScalars(tone(mesh, paint, viewpoint));
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(toned);
   mapper->SetColorModeToDirectScalars();
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
-  vtkProperty* matte = actor->GetProperty();
-  matte->SetInterpolationToPhong();
-  matte->SetAmbient(0.44);
-  matte->SetDiffuse(0.72);
-  matte->SetSpecular(0.07);
-  matte->SetSpecularPower(9);
+  actor->GetProperty()->LightingOff();
   return actor;
 }
 
 void add_membrane(vtkRenderer& renderer, const Surface& surface, const Coloring& coloring,
-                  const Vec3& toward_eye) {
+                  const Viewpoint& viewpoint) {
   if (coloring.quantity == Quantity::phase) {
     for (const Patch& patch : surface.parts) {
       const Color color = hue(patch.part).surface;
       const Paint paint = [=](vtkIdType) { return color; };
-      renderer.AddActor(membrane_actor(*patch.mesh, paint, toward_eye));
+      renderer.AddActor(membrane_actor(*patch.mesh, paint, viewpoint));
     }
     return;
   }
   const std::string name(to_string(coloring.quantity));
   vtkDataArray* values = surface.mesh->GetPointData()->GetArray(name.c_str());
-  const Paint paint = [&](vtkIdType n) { return coloring.palette->at(values->GetTuple1(n)); };
-  renderer.AddActor(membrane_actor(*surface.mesh, paint, toward_eye));
+  const Paint paint = [&](vtkIdType n) { return coloring.palette->at(values->GetComponent(n, 0)); };
+  renderer.AddActor(membrane_actor(*surface.mesh, paint, viewpoint));
 }
 
 /// Radius of the thread along a boundary: constant, but less toward the horizon, over which the
@@ -206,12 +245,9 @@ vtkSmartPointer<vtkRenderer> membrane_view(const Surface& surface, const Viewpoi
                                            const Vec2& center, double height, double line_width,
                                            const Coloring& coloring) {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
-  renderer->AutomaticLightCreationOff();
-  add_light(*renderer, viewpoint, {-0.45, 0.80, 0.65}, 0.68); // key, from the upper left
-  add_light(*renderer, viewpoint, {0.75, 0.10, 0.65}, 0.30);  // fill, from the right
-  add_light(*renderer, viewpoint, {0.05, -0.70, 0.40}, 0.22); // as paper would reflect, from below
+  renderer->AutomaticLightCreationOff(); // colours have their light
+  add_membrane(*renderer, surface, coloring, viewpoint);
   const Vec3 toward_eye = viewpoint.lift({0, 0, 1});
-  add_membrane(*renderer, surface, coloring, toward_eye);
   if (surface.boundary && surface.boundary->GetNumberOfLines() > 0)
     renderer->AddActor(boundary_actor(*surface.boundary, toward_eye, line_width));
 
