@@ -48,8 +48,8 @@ Series front(const std::vector<Trade>& trades, double end) {
   return border;
 }
 
-Series line_of(const std::vector<Trade>& trades, const std::string& name, Color color) {
-  Series line{name, color};
+Series line_of(const std::vector<Trade>& trades, Color color) {
+  Series line{"", color};
   line.width = style::curve_width / 2;
   line.dots = true;
   for (const Trade& trade : trades) {
@@ -76,8 +76,15 @@ Plot tradeoff_plot(std::span<const Trade> all) {
   std::map<std::array<int, 3>, std::vector<Trade>> grids;
   for (const Trade& trade : trades) grids[trade.nodes].push_back(trade);
   std::size_t n = 0;
-  for (const auto& [nodes, on_grid] : grids)
-    plot.series.push_back(line_of(on_grid, grid_label(nodes), shade(n++, grids.size())));
+  for (const auto& [nodes, on_grid] : grids) {
+    const Color color = shade(n++, grids.size());
+    plot.series.push_back(line_of(on_grid, color));
+    const Trade& last = on_grid.back();
+    plot.notes.push_back({{last.seconds, last.error},
+                          grid_label(nodes),
+                          {style::small_type, color, 0, Face::bold},
+                          {24, -18}});
+  }
   for (const Trade& trade : trades)
     if (!trade.name.empty())
       plot.notes.push_back({{trade.seconds, trade.error},
