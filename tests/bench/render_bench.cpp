@@ -31,8 +31,24 @@ void draw(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(still.draw(surface, studio, 1200, 900));
 }
 
-BENCHMARK(extract)->ArgName("phases")->Arg(1)->Arg(2)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(draw)->ArgName("phases")->Arg(1)->Arg(2)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+/// Both.
+void panel(benchmark::State& state) {
+  Studio studio("auto");
+  const Frame frame = dumbbell(state.range(0) == 2);
+  for (auto _ : state) {
+    const Surface surface = extract_surface(frame);
+    benchmark::DoNotOptimize(Still({surface}, {}).draw(surface, studio, 1200, 900));
+  }
+}
+
+void with_phases(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("phases")->Arg(1)->Arg(2)->MeasureProcessCPUTime()->UseRealTime();
+  benchmark->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK(extract)->Apply(with_phases);
+BENCHMARK(draw)->Apply(with_phases);
+BENCHMARK(panel)->Apply(with_phases);
 
 } // namespace
 } // namespace lamella::render
