@@ -212,11 +212,14 @@ void RunFolder::open_tables(const Simulation& now, const Checkpoint* from) {
   }
 }
 
-void RunFolder::add(const Frame& frame) {
+void RunFolder::add(Frame frame) {
+  const fs::path frames = folder_ / frames_folder;
   const std::string name = frame_file(series_.size());
-  write_frame(folder_ / frames_folder / name, frame);
   series_.push_back({name, frame.time});
-  write_series(folder_ / frames_folder / series_file, series_);
+  writing_.start([frames, name, frame = std::move(frame), series = series_] {
+    write_frame(frames / name, frame);
+    write_series(frames / series_file, series);
+  });
 }
 
 void RunFolder::add_new(std::span<const Event> all) {
@@ -224,6 +227,7 @@ void RunFolder::add_new(std::span<const Event> all) {
 }
 
 void RunFolder::add(const Frame& frame, Checkpoint checkpoint) {
+  writing_.wait();
   history_->synchronise();
   events_->synchronise();
   checkpoint.scene = scene_text();
@@ -240,7 +244,8 @@ void RunFolder::add(const Frame& frame, Checkpoint checkpoint) {
   });
 }
 
-void RunFolder::write(RunStatus status) const {
+void RunFolder::write(RunStatus status) {
+  writing_.wait();
   status.scene_hash = hash_of(scene_text());
   write_status(folder_ / status_file, status);
 }
@@ -252,7 +257,8 @@ std::string RunFolder::scene_text() const {
   return text.str();
 }
 
-void RunFolder::write_summary(const std::string& text) const {
+void RunFolder::write_summary(const std::string& text) {
+  writing_.wait();
   write_text_atomically(folder_ / summary_file, text);
 }
 

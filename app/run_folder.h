@@ -1,5 +1,6 @@
 #pragma once
 #include "scene/scene.h"
+#include "store/background.h"
 #include "store/checkpoint.h"
 #include "store/frame.h"
 #include "store/history.h"
@@ -54,14 +55,16 @@ public:
   RunFolder(const std::filesystem::path& folder, const Simulation& now, const Checkpoint* from);
 
   void add(const Measures& measures) { history_->add(measures); }
-  void add(const Frame& frame);
+  /// Writes it while the caller goes on. What fails is thrown by the next call that stores a frame,
+  /// a checkpoint, the summary or the status.
+  void add(Frame frame);
   /// Adds those of all events so far that are not there yet.
   void add_new(std::span<const Event> all);
   /// Stores a checkpoint, having noted in it what else is stored, and keeps the one before it.
   void add(const Frame& frame, Checkpoint checkpoint);
-  void write_summary(const std::string& text) const;
+  void write_summary(const std::string& text);
   /// The hash of the scene is filled in.
-  void write(RunStatus status) const;
+  void write(RunStatus status);
 
   const std::filesystem::path& path() const { return folder_; }
   int frames() const { return int(series_.size()); }
@@ -78,6 +81,7 @@ private:
   std::optional<EventWriter> events_;
   std::size_t event_count_ = 0;
   std::vector<SeriesEntry> series_;
+  Background writing_; // the last member: all else is there until it is done
 };
 
 /// The last frame of a run that has ended, also early; nothing for any other folder. Throws

@@ -73,10 +73,10 @@ Simulation::Simulation(const Scene& scene, const Start& start)
 }
 
 Frame Simulation::frame() const {
-  auto nodal = [&](LevelSet field, const SemiImplicit& stepper) {
-    if (broken_) std::ranges::copy(stepper.before(), field.coefficients().begin());
-    field.update_nodal();
-    return std::vector<double>(field.nodal().begin(), field.nodal().end());
+  auto nodal = [&](const LevelSet& field, const SemiImplicit& stepper) {
+    std::vector<double> values(grid().size());
+    nodal_values(grid(), broken_ ? stepper.before() : field.coefficients(), values);
+    return values;
   };
   Frame frame{grid(), time(), nodal(vesicle_.phi(), stepper_), cells_};
   if (psi_stepper_) frame.psi = nodal(vesicle_.phases()->psi(), *psi_stepper_);

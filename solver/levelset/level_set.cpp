@@ -7,25 +7,32 @@
 
 namespace lamella {
 
+namespace {
+
+SplineView spline(const Grid& grid, std::span<const double> coefficients) {
+  return {coefficients.data(),
+          {grid.nx(), grid.ny(), grid.nz()},
+          {grid.origin(0), grid.origin(1), grid.origin(2)},
+          1 / grid.spacing};
+}
+
+} // namespace
+
+void nodal_values(const Grid& grid, std::span<const double> coefficients, std::span<double> nodal) {
+  const SplineView view = spline(grid, coefficients);
+  const std::size_t plane = std::size_t(grid.nx()) * grid.ny();
+  parallel_for(grid.nz(), 4, [&](std::size_t begin, std::size_t end) {
+    thread_local Array<double> scratch;
+    scratch.resize(plane + 2 * grid.nx() + 6);
+    for (std::size_t k = begin; k < end; k++)
+      kernels().nodal_plane(view, int(k), scratch.data(), &nodal[k * plane]);
+  });
+}
+
 LevelSet::LevelSet(const Grid& grid)
     : grid_(grid), coefficients_(grid.size(), 0.0), nodal_(grid.size(), 0.0) {}
 
-SplineView LevelSet::view() const {
-  return {coefficients_.data(),
-          {grid_.nx(), grid_.ny(), grid_.nz()},
-          {grid_.origin(0), grid_.origin(1), grid_.origin(2)},
-          1 / grid_.spacing};
-}
-
-void LevelSet::update_nodal() {
-  const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
-  parallel_for(grid_.nz(), 4, [&](std::size_t begin, std::size_t end) {
-    thread_local Array<double> scratch;
-    scratch.resize(plane + 2 * grid_.nx() + 6);
-    for (std::size_t k = begin; k < end; k++)
-      kernels().nodal_plane(view(), int(k), scratch.data(), &nodal_[k * plane]);
-  });
-}
+SplineView LevelSet::view() const { return spline(grid_, coefficients_); }
 
 void LevelSet::fit(std::span<const double> values, Fourier& fourier, int sweeps) {
   update_nodal();

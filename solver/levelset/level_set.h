@@ -9,6 +9,9 @@
 
 namespace lamella {
 
+/// Nodal values of the degree-7 tensor B-spline with these coefficients on a periodic grid.
+void nodal_values(const Grid& grid, std::span<const double> coefficients, std::span<double> nodal);
+
 /// A smooth level set: degree-7 tensor B-spline on a periodic grid, negative inside the membrane
 /// {phi = 0}. phi need not be a distance; |grad phi| on the membrane should be of order 1 (see
 /// gauge.h).
@@ -24,7 +27,7 @@ public:
   /// Values at the nodes, as of the last update_nodal() or fit().
   std::span<const double> nodal() const { return nodal_; }
 
-  void update_nodal();
+  void update_nodal() { nodal_values(grid_, coefficients_, nodal_); }
 
   /// Coefficients whose nodal values are `values`, but for grid-scale content (kinks far from the
   /// membrane), which the spline would turn into ringing: the result of `sweeps` sweeps c <- c +

@@ -1,6 +1,7 @@
 #include "store/h5_image.h"
 
 #include "error.h"
+#include "grid/memory.h"
 #include "store/atomic_file.h"
 #include "store/posix_file.h"
 
@@ -28,22 +29,62 @@ std::string trailer(std::span<const std::byte> image) {
   return fmt::format("{}{:016x}\n", trailer_mark, XXH3_64bits(image.data(), image.size()));
 }
 
+/// Memory for a file that HDF5 composes, which outlives the file: no copy is made of it.
+class ImageMemory {
+public:
+  /// Sets HDF5 up to write to this memory, of at first `size` bytes.
+  H5Handle file_access(std::size_t size) {
+    bytes_.reserve(size + trailer_size);
+    H5Handle access = owned(H5Pcreate(H5P_FILE_ACCESS));
+    required(H5Pset_fapl_core(access, size, false));
+    H5FD_file_image_callbacks_t callbacks{};
+    callbacks.udata = this;
+    callbacks.udata_copy = [](void* memory) { return memory; };
+    callbacks.udata_free = [](void*) { return herr_t(0); };
+    callbacks.image_malloc = [](std::size_t bytes, H5FD_file_image_op_t, void* memory) {
+      return resize(memory, bytes);
+    };
+    callbacks.image_realloc = [](void*, std::size_t bytes, H5FD_file_image_op_t, void* memory) {
+      return resize(memory, bytes);
+    };
+    callbacks.image_free = [](void*, H5FD_file_image_op_t, void*) { return herr_t(0); };
+    required(H5Pset_file_image_callbacks(access, &callbacks));
+    return access;
+  }
+
+  Array<std::byte> take(std::size_t size) {
+    bytes_.resize(size);
+    return std::move(bytes_);
+  }
+
+private:
+  static void* resize(void* memory, std::size_t bytes) {
+    try {
+      Array<std::byte>& own = static_cast<ImageMemory*>(memory)->bytes_;
+      own.resize(bytes);
+      return own.data();
+    } catch (const std::bad_alloc&) {
+      return nullptr; // HDF5 is not made for exceptions
+    }
+  }
+
+  Array<std::byte> bytes_;
+};
+
 /// The bytes of an HDF5 file.
-std::vector<std::byte> compose(std::size_t size, const std::function<void(hid_t)>& fill) {
+Array<std::byte> compose(std::size_t size, const std::function<void(hid_t)>& fill) {
   const H5Session session;
-  const H5Handle access = owned(H5Pcreate(H5P_FILE_ACCESS));
-  const std::size_t growth = size + (1 << 16);
-  required(H5Pset_fapl_core(access, growth, false));
-  const H5Handle creator = creation(H5P_FILE_CREATE);
-  const H5Handle file = owned(H5Fcreate(in_memory, H5F_ACC_TRUNC, creator, access));
-  fill(file);
-  required(H5Fflush(file, H5F_SCOPE_GLOBAL));
-  std::vector<std::byte> image;
-  const auto length = static_cast<std::size_t>(required(H5Fget_file_image(file, nullptr, 0)));
-  image.reserve(length + trailer_size);
-  image.resize(length);
-  required(H5Fget_file_image(file, image.data(), image.size()));
-  return image;
+  ImageMemory memory;
+  std::size_t length = 0;
+  {
+    const H5Handle access = memory.file_access(size + (1 << 16));
+    const H5Handle creator = creation(H5P_FILE_CREATE);
+    const H5Handle file = owned(H5Fcreate(in_memory, H5F_ACC_TRUNC, creator, access));
+    fill(file);
+    required(H5Fflush(file, H5F_SCOPE_GLOBAL));
+    length = static_cast<std::size_t>(required(H5Fget_file_image(file, nullptr, 0)));
+  }
+  return memory.take(length);
 }
 
 /// The content of a file without its trailer, which must fit.
@@ -104,7 +145,7 @@ void write_attribute(hid_t object, const char* name, std::string_view value) {
 
 void write_h5(const std::filesystem::path& file, std::size_t size,
               const std::function<void(hid_t root)>& fill) {
-  std::vector<std::byte> image;
+  Array<std::byte> image;
   try {
     image = compose(size, fill);
   } catch (const H5Failure&) {
