@@ -40,6 +40,7 @@ scene.toml, status.toml and summary.txt. Ctrl-C ends a run early and stores what
 A run that was interrupted or killed goes on as if it had not been:
   lamella run --resume oblate
   lamella run --resume oblate --branch -o longer --set run.end_time=0.01
+  lamella run --resume oblate/frames/frame_0004.hdf --branch -o soft --set membrane.bending_modulus=0.5
 
 Exit codes: 0 done, 2 bad scene or command line (nothing written), 3 the run could not go on (stored
 up to there), 4 a file could not be written, 5 no pictures, 75 interrupted and can be resumed, 130
@@ -133,8 +134,10 @@ void add_run(CLI::App& app, RunOptions& options) {
   CLI::Option* output =
       add_output(run, options.folder, "Output folder (default: the scene's name)");
   CLI::Option* resume =
-      run.add_option("--resume", options.resume, "Go on with the run in a folder, to the last bit")
-          ->type_name("FOLDER");
+      run.add_option("--resume", options.resume,
+                     "Go on with the run in a folder, to the last bit; with --branch also from a "
+                     "checkpoint or an exact frame")
+          ->type_name("FOLDER|FILE");
   CLI::Option* branch =
       run.add_flag("--branch", options.branch,
                    "With --resume, -o and --set: go on in another folder, with a changed scene")
@@ -144,6 +147,8 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(0., 1e9).description(""))
       ->capture_default_str()
       ->type_name("S");
+  run.add_flag("--exact-frames", options.exact_frames,
+               "Make every frame a checkpoint: seven times the size, and --branch starts from any");
   run.callback([=] {
     if (scene->empty() && resume->empty()) throw CLI::RequiredError("scene");
     if (!resume->empty() && !output->empty() && branch->empty())

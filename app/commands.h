@@ -11,11 +11,12 @@ namespace lamella {
 struct RunOptions {
   std::string scene; ///< a file, or the name of a built-in scene; empty: that of `resume`
   std::filesystem::path folder; ///< empty: the scene's name in the current folder
-  std::filesystem::path resume; ///< the folder of a run to go on with; empty: a new run
+  std::filesystem::path resume; ///< a run to go on with, or a state in it; empty: a new run
   bool branch = false;          ///< go on in `folder`, with what the scene changes
   std::vector<std::string> set; ///< section.key=value
   std::string preset = "standard";
   double checkpoint_seconds = 60; ///< wall-clock time between checkpoints; 0: none
+  bool exact_frames = false;      ///< frames are checkpoints too
   std::string backend = "auto";   ///< of the pictures
   int threads = 0;                ///< 0: all
   bool force = false;             ///< replace an earlier run in the folder

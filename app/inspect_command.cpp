@@ -86,10 +86,6 @@ std::string checkpoint_text(const fs::path& file, const Checkpoint& c) {
          row("scene hash", hash_of(c.scene)) + row("size", size_text(fs::file_size(file)));
 }
 
-bool is_checkpoint(const fs::path& file) {
-  return file.filename().string().starts_with("checkpoint_");
-}
-
 std::string file_text(const fs::path& file) {
   if (is_checkpoint(file)) return checkpoint_text(file, read_checkpoint(file));
   return fmt::format("{}: a frame\n", file.string()) + frame_rows(file, read_frame(file));

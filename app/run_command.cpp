@@ -43,7 +43,9 @@ public:
 
 private:
   void store_start(bool is_branch);
+  void store_frame(bool can_go_on);
   void store_checkpoint();
+  Checkpoint checkpoint() const;
   Outcome advance();
   void store_step(bool frame_is_due);
   RunStatus status(RunStatus::State state, const std::string& reason = {}) const;
@@ -67,27 +69,38 @@ RunStatus Run::status(RunStatus::State state, const std::string& reason) const {
 void Run::store_start(bool is_branch) {
   folder_.add(sim_.measures());
   folder_.add_new(sim_.events());
-  folder_.add(sim_.frame());
-  if (is_branch) store_checkpoint(); // its scene alone does not lead here
+  store_frame(false);                // what leads here is the scene
+  if (is_branch) store_checkpoint(); // its scene alone does not
+}
+
+void Run::store_frame(bool can_go_on) {
+  if (options_.exact_frames && can_go_on)
+    folder_.add_frame(sim_.frame(), checkpoint());
+  else
+    folder_.add_frame(sim_.frame());
 }
 
 void Run::store_checkpoint() {
   checkpoint_time_ = loop_.wall_seconds();
+  folder_.add_checkpoint(sim_.frame(), checkpoint());
+}
+
+Checkpoint Run::checkpoint() const {
   Checkpoint checkpoint;
   checkpoint.program = version();
   checkpoint.arithmetic = arithmetic();
   checkpoint.threads = thread_count();
-  checkpoint.wall_seconds = checkpoint_time_;
+  checkpoint.wall_seconds = loop_.wall_seconds();
   checkpoint.stopping = loop_.stopping();
   checkpoint.state = sim_.state();
-  folder_.add(sim_.frame(), std::move(checkpoint));
+  return checkpoint;
 }
 
 void Run::store_step(bool frame_is_due) {
   course_.add(sim_.measures());
   folder_.add(sim_.measures());
   folder_.add_new(sim_.events());
-  if (frame_is_due) folder_.add(sim_.frame());
+  if (frame_is_due) store_frame(true);
   const double since = loop_.wall_seconds() - checkpoint_time_;
   const bool is_due = options_.checkpoint_seconds > 0 && since >= options_.checkpoint_seconds;
   if (checkpoint_requested() || is_due) store_checkpoint();
@@ -99,7 +112,7 @@ Outcome Run::advance() {
   const Outcome outcome = loop_.run([this](bool frame_is_due) { store_step(frame_is_due); });
   const bool can_go_on = outcome.code != run_stopped && course_.steps() > 0;
   if (can_go_on && options_.checkpoint_seconds > 0) store_checkpoint();
-  if (folder_.last_frame_time() < sim_.time()) folder_.add(sim_.frame());
+  if (folder_.last_frame_time() < sim_.time()) store_frame(can_go_on);
   return outcome;
 }
 
@@ -273,8 +286,24 @@ int branch_off(const RunOptions& options, const Scene& scene, const Checkpoint& 
   return run.carry_out(Run::Beginning::branch);
 }
 
+/// From one of the states in a run's folder.
+int branch_off_file(const RunOptions& options) {
+  const fs::path& file = options.resume;
+  if (!options.branch)
+    throw UsageError(file.string() + ": a run goes on in its folder; from a file in it, --branch "
+                                     "with -o starts another run");
+  const fs::path scene_file = fs::absolute(file).parent_path().parent_path() / "scene.toml";
+  if (!fs::is_regular_file(scene_file))
+    throw UsageError(file.string() + ": it is not in the folder of a run");
+  const Checkpoint checkpoint = read_checkpoint(file);
+  const Scene scene = wanted_scene(options, scene_file.string()),
+              stored = parse_scene(checkpoint.scene, scene_file.string());
+  return branch_off(options, scene, checkpoint, stored, differences(stored, scene));
+}
+
 int resume(const RunOptions& options) {
   const fs::path& path = options.resume;
+  if (fs::is_regular_file(path)) return branch_off_file(options);
   if (!can_be_resumed(path)) {
     if (options.scene.empty())
       throw UsageError(path.string() + ": there is no run to resume; with a scene, as in `lamella "

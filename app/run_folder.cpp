@@ -212,13 +212,29 @@ void RunFolder::open_tables(const Simulation& now, const Checkpoint* from) {
   }
 }
 
-void RunFolder::add(Frame frame) {
+/// write(file) writes the frame.
+template <class Write>
+void RunFolder::store_frame(double time, Write write) {
   const fs::path frames = folder_ / frames_folder;
   const std::string name = frame_file(series_.size());
-  series_.push_back({name, frame.time});
-  writing_.start([frames, name, frame = std::move(frame), series = series_] {
-    write_frame(frames / name, frame);
-    write_series(frames / series_file, series);
+  series_.push_back({name, time});
+  writing_.start([file = frames / name, write = std::move(write), series = series_]() mutable {
+    write(file);
+    write_series(file.parent_path() / series_file, series);
+  });
+}
+
+void RunFolder::add_frame(Frame frame) {
+  const double time = frame.time;
+  store_frame(time, [frame = std::move(frame)](const fs::path& file) { write_frame(file, frame); });
+}
+
+void RunFolder::add_frame(Frame frame, Checkpoint checkpoint) {
+  const double time = frame.time;
+  note_in(checkpoint);
+  store_frame(time, [frame = std::move(frame),
+                     checkpoint = std::move(checkpoint)](const fs::path& file) mutable {
+    write_checkpoint(file, frame, std::move(checkpoint));
   });
 }
 
@@ -226,14 +242,19 @@ void RunFolder::add_new(std::span<const Event> all) {
   for (; event_count_ < all.size(); event_count_++) events_->add(all[event_count_]);
 }
 
-void RunFolder::add(const Frame& frame, Checkpoint checkpoint) {
-  writing_.wait();
-  history_->synchronise();
-  events_->synchronise();
+/// What else is stored.
+void RunFolder::note_in(Checkpoint& checkpoint) const {
   checkpoint.scene = scene_text();
   checkpoint.history_size = long(history_->size());
   checkpoint.events_size = long(events_->size());
   for (const SeriesEntry& entry : series_) checkpoint.frame_times.push_back(entry.time);
+}
+
+void RunFolder::add_checkpoint(const Frame& frame, Checkpoint checkpoint) {
+  writing_.wait();
+  history_->synchronise();
+  events_->synchronise();
+  note_in(checkpoint);
   const fs::path inner = folder_ / checkpoints_folder;
   or_store_error(inner, "cannot be written", [&] {
     fs::create_directories(inner);

@@ -57,11 +57,13 @@ public:
   void add(const Measures& measures) { history_->add(measures); }
   /// Writes it while the caller goes on. What fails is thrown by the next call that stores a frame,
   /// a checkpoint, the summary or the status.
-  void add(Frame frame);
+  void add_frame(Frame frame);
+  /// One that is a checkpoint too, for branches.
+  void add_frame(Frame frame, Checkpoint checkpoint);
   /// Adds those of all events so far that are not there yet.
   void add_new(std::span<const Event> all);
   /// Stores a checkpoint, having noted in it what else is stored, and keeps the one before it.
-  void add(const Frame& frame, Checkpoint checkpoint);
+  void add_checkpoint(const Frame& frame, Checkpoint checkpoint);
   void write_summary(const std::string& text);
   /// The hash of the scene is filled in.
   void write(RunStatus status);
@@ -73,6 +75,9 @@ public:
   std::string scene_text() const;
 
 private:
+  template <class Write>
+  void store_frame(double time, Write write);
+  void note_in(Checkpoint& checkpoint) const;
   void open_tables(const Simulation& now, const Checkpoint* from);
 
   std::filesystem::path folder_;

@@ -26,8 +26,8 @@ std::string content(const fs::path& file) {
 
 std::string key_of(const Scene& scene) {
   QCryptographicHash hash(QCryptographicHash::Sha256);
-  for (const std::string& part : {std::string(version()), to_toml(scene),
-                                  content(scene.shape.file), content(scene.domains.file)})
+  for (const std::string& part : {std::string(version()), to_toml(scene), content(scene.shape.file),
+                                  content(scene.domains.file)})
     hash.addData(part.data(), int(part.size()));
   return hash.result().toHex().left(12).toStdString();
 }

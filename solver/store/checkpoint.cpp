@@ -394,6 +394,11 @@ void write_checkpoint(const std::filesystem::path& file, const Frame& frame,
   });
 }
 
+bool is_checkpoint(const std::filesystem::path& file) {
+  const H5Image image(file, "frame");
+  return image.has(image.group(image.root(), "lamella"), group_name);
+}
+
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
   const H5Image image(file, "checkpoint");
   const H5Handle lamella = image.group(image.root(), "lamella");

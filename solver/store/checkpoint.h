@@ -24,6 +24,9 @@ struct Checkpoint {
 /// all. Throws StoreError.
 void write_checkpoint(const std::filesystem::path& file, const Frame& frame, Checkpoint checkpoint);
 
+/// Whether a frame is a checkpoint too. Throws StoreError for what is no frame.
+bool is_checkpoint(const std::filesystem::path& file);
+
 /// Read what write_checkpoint wrote. Throws StoreError for anything else, a damaged file and one of
 /// a later format included; whether the state fits its scene, Simulation will say.
 Checkpoint read_checkpoint(const std::filesystem::path& file);

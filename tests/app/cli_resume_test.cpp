@@ -208,6 +208,26 @@ TEST_F(Resume, branches_off_with_a_changed_scene) {
   EXPECT_THAT(run("--resume short --branch -o other").err, HasSubstr("set run.end_time beyond it"));
 }
 
+TEST_F(Resume, branches_off_from_any_exact_frame) {
+  for (const std::string scene : {one_phase, two_phases}) {
+    ASSERT_EQ(run(scene + " -o whole --exact-frames --force").code, 0);
+    const Result result =
+        run("--resume whole/frames/frame_0002.hdf --branch -o rest --force --threads 1");
+    ASSERT_EQ(result.code, 0) << result.err;
+    const std::string whole = text_of(work() / "whole" / "history.csv"),
+                      rest = text_of(work() / "rest" / "history.csv");
+    const std::string rows = rest.substr(rest.find('\n') + 1);
+    EXPECT_TRUE(whole.ends_with(rows)) << rows;
+    EXPECT_GT(std::ranges::count(rows, '\n'), 5);
+    EXPECT_THAT(call({"inspect", "whole/frames/frame_0001.hdf"}).out, HasSubstr("a checkpoint"));
+  }
+  EXPECT_THAT(run("--resume whole/frames/frame_0000.hdf --branch -o other").err,
+              HasSubstr("a frame without a checkpoint"));
+  EXPECT_THAT(run("--resume whole/frames/frame_0002.hdf").err, HasSubstr("--branch"));
+  fs::rename(work() / "whole" / "frames" / "frame_0002.hdf", work() / "frame.hdf");
+  EXPECT_THAT(run("--resume frame.hdf --branch -o other").err, HasSubstr("not in the folder"));
+}
+
 TEST_F(Resume, leaves_finished_runs_and_folders_in_use_alone) {
   ASSERT_EQ(run(std::string(one_phase) + " -o run").code, 0);
   const std::string summary = text_of(work() / "run" / "summary.txt");
