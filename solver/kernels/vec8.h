@@ -101,26 +101,24 @@ LAMELLA_INLINE bool any(Mask8 mask) {
 LAMELLA_INLINE V8 sums_of(const V8* a) {
   V8 r;
 #if defined(__AVX512F__)
-  const PartMask even = {0, 8, 2, 10, 4, 12, 6, 14}, odd = {1, 9, 3, 11, 5, 13, 7, 15};
-  const PartMask low2 = {0, 1, 8, 9, 4, 5, 12, 13}, high2 = {2, 3, 10, 11, 6, 7, 14, 15};
-  const PartMask low4 = {0, 1, 2, 3, 8, 9, 10, 11}, high4 = {4, 5, 6, 7, 12, 13, 14, 15};
   Part b[4], c[2];
   for (int i = 0; i < 4; i++)
-    b[i] = __builtin_shuffle(a[2 * i].v[0], a[2 * i + 1].v[0], even) +
-           __builtin_shuffle(a[2 * i].v[0], a[2 * i + 1].v[0], odd);
+    b[i] = __builtin_shufflevector(a[2 * i].v[0], a[2 * i + 1].v[0], 0, 8, 2, 10, 4, 12, 6, 14) +
+           __builtin_shufflevector(a[2 * i].v[0], a[2 * i + 1].v[0], 1, 9, 3, 11, 5, 13, 7, 15);
   for (int i = 0; i < 2; i++)
-    c[i] = __builtin_shuffle(b[2 * i], b[2 * i + 1], low2) +
-           __builtin_shuffle(b[2 * i], b[2 * i + 1], high2);
-  r.v[0] = __builtin_shuffle(c[0], c[1], low4) + __builtin_shuffle(c[0], c[1], high4);
+    c[i] = __builtin_shufflevector(b[2 * i], b[2 * i + 1], 0, 1, 8, 9, 4, 5, 12, 13) +
+           __builtin_shufflevector(b[2 * i], b[2 * i + 1], 2, 3, 10, 11, 6, 7, 14, 15);
+  r.v[0] = __builtin_shufflevector(c[0], c[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+           __builtin_shufflevector(c[0], c[1], 4, 5, 6, 7, 12, 13, 14, 15);
 #elif defined(__AVX2__)
-  const PartMask even = {0, 4, 2, 6}, odd = {1, 5, 3, 7}, low = {0, 1, 4, 5}, high = {2, 3, 6, 7};
   for (int i = 0; i < 2; i++) {
     Part s[4], b[2];
     for (int l = 0; l < 4; l++) s[l] = a[4 * i + l].v[0] + a[4 * i + l].v[1];
     for (int l = 0; l < 2; l++)
-      b[l] = __builtin_shuffle(s[2 * l], s[2 * l + 1], even) +
-             __builtin_shuffle(s[2 * l], s[2 * l + 1], odd);
-    r.v[i] = __builtin_shuffle(b[0], b[1], low) + __builtin_shuffle(b[0], b[1], high);
+      b[l] = __builtin_shufflevector(s[2 * l], s[2 * l + 1], 0, 4, 2, 6) +
+             __builtin_shufflevector(s[2 * l], s[2 * l + 1], 1, 5, 3, 7);
+    r.v[i] = __builtin_shufflevector(b[0], b[1], 0, 1, 4, 5) +
+             __builtin_shufflevector(b[0], b[1], 2, 3, 6, 7);
   }
 #else
   for (int i = 0; i < 4; i++) {
@@ -129,8 +127,7 @@ LAMELLA_INLINE V8 sums_of(const V8* a) {
       const V8& q = a[2 * i + l];
       s[l] = (q.v[0] + q.v[1]) + (q.v[2] + q.v[3]);
     }
-    r.v[i] = __builtin_shuffle(s[0], s[1], PartMask{0, 2}) +
-             __builtin_shuffle(s[0], s[1], PartMask{1, 3});
+    r.v[i] = __builtin_shufflevector(s[0], s[1], 0, 2) + __builtin_shufflevector(s[0], s[1], 1, 3);
   }
 #endif
   return r;

@@ -213,6 +213,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>; // for compilers without P1816
 
 std::string range_text(const Range& range) {
   if (!range.above_low && !range.below_high)
