@@ -65,7 +65,7 @@ TEST_F(Cli, helps) {
 TEST_F(Cli, tells_its_version) {
   const Result result = call({"--version"});
   EXPECT_EQ(result.code, 0);
-  EXPECT_THAT(result.out, MatchesRegex("lamella [0-9]+\\.[0-9]+\\.[0-9]+ .*\n"));
+  EXPECT_THAT(result.out, MatchesRegex("lamella [0-9]+\\.[0-9]+\\.[0-9]+[+][0-9a-f]{8} .*\n"));
 }
 
 TEST_F(Cli, lists_the_scenes) {
