@@ -40,10 +40,12 @@ void LevelSet::fit(std::span<const double> values, Fourier& fourier, int sweeps)
   auto residual = [&](int k, double* out) {
     for (std::size_t i = 0; i < plane; i++) out[i] = values[k * plane + i] - nodal_[k * plane + i];
   };
+  std::vector<double> along(fourier.row_modes());
+  for (int kx = 0; kx < fourier.row_modes(); kx++) along[kx] = fourier.spline_symbol(0, kx);
   auto invert = [&](int ky, int kz, std::complex<double>* row) {
     const double across = fourier.spline_symbol(1, ky) * fourier.spline_symbol(2, kz);
     for (int kx = 0; kx < fourier.row_modes(); kx++) {
-      const double symbol = across * fourier.spline_symbol(0, kx);
+      const double symbol = across * along[kx];
       row[kx] *= (1 - std::pow(1 - symbol, sweeps)) / (symbol * double(grid_.size()));
     }
   };
