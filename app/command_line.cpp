@@ -73,6 +73,14 @@ constexpr const char* movie_notes = R"(Examples:
 
 Without ffmpeg there are pictures in a folder instead.)";
 
+constexpr const char* export_notes = R"(Examples:
+  lamella export oblate                         oblate/surfaces/membrane.pvd and its files
+  lamella export oblate -o meshes --times 0,1.6e-3
+
+Membranes are triangles with normals, curvatures, energy density and velocity at the points; with two
+phases their boundaries are lines. ParaView opens the .pvd files, as time series, without the plugin;
+other programs read the .vtp files. Those of an earlier export are replaced.)";
+
 constexpr const char* scenes_notes = R"(Examples:
   lamella scenes                              the list
   lamella scenes fig3_oblate > vesicle.toml   a scene to start your own from)";
@@ -276,6 +284,17 @@ void add_movie(CLI::App& app, MovieOptions& options) {
   add_backend(command, options.backend);
 }
 
+void add_export(CLI::App& app, ExportOptions& options) {
+  CLI::App& command =
+      *app.add_subcommand("export", "Write the membranes of a stored run as triangles (.vtp)");
+  command.footer(export_notes);
+  command.add_option("folder", options.folder, "Output folder of a run")->required()->type_name("");
+  add_output(command, options.output, "Output folder (default: surfaces in the run's)");
+  add_list(command, "--times", options.times,
+           "States to write, those nearest to these times (default: all)")
+      ->type_name("T[,T]");
+}
+
 void add_scenes(CLI::App& app, std::string& name) {
   CLI::App& scenes = *app.add_subcommand("scenes", "List the built-in scenes, or print one");
   scenes.footer(scenes_notes);
@@ -386,6 +405,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   RenderCommandOptions render_options;
   FigureOptions figure_options;
   MovieOptions movie_options;
+  ExportOptions export_options;
   std::string scene;
   TradeoffOptions tradeoff_options;
   ExtremesOptions extremes_options;
@@ -394,6 +414,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   std::filesystem::path inspected;
   add_figure(app, figure_options);
   add_movie(app, movie_options);
+  add_export(app, export_options);
   add_scenes(app, scene);
   add_inspect(app, inspected);
   add_tradeoff(app, tradeoff_options);
@@ -414,6 +435,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   if (app.got_subcommand("inspect")) return [=] { return inspect(inspected); };
   if (app.got_subcommand("figure")) return [=] { return figure(figure_options); };
   if (app.got_subcommand("movie")) return [=] { return movie(movie_options); };
+  if (app.got_subcommand("export")) return [=] { return export_surfaces(export_options); };
   if (app.got_subcommand("tradeoff")) return [=] { return tradeoff(tradeoff_options); };
   if (app.got_subcommand("extremes")) return [=] { return extremes(extremes_options); };
   return [=] { return show_scenes(scene); };

@@ -72,6 +72,16 @@ struct MovieOptions {
 /// Makes a movie of a stored run. Returns an ExitCode; throws UsageError, StoreError, RenderError.
 int movie(const MovieOptions& options);
 
+struct ExportOptions {
+  std::filesystem::path folder; ///< of a run
+  std::filesystem::path output; ///< a folder; empty: "surfaces" in that of the run
+  std::vector<double> times;    ///< of the states, those nearest; empty: all
+};
+
+/// Writes the membranes of a stored run, and with two phases their boundaries, as polygons. Returns
+/// an ExitCode; throws UsageError, StoreError.
+int export_surfaces(const ExportOptions& options);
+
 /// Lists the built-in scenes, or prints one. Returns an ExitCode; throws SceneError.
 int show_scenes(const std::string& name);
 

@@ -30,6 +30,7 @@ constexpr const char* summary_file = "summary.txt";
 constexpr const char* status_file = "status.toml";
 constexpr const char* checkpoints_folder = "checkpoints";
 constexpr const char* frames_folder = "frames";
+constexpr const char* surfaces_name = "surfaces";
 constexpr const char* series_file = "frames.hdf.series";
 
 // The names of what a run writes, as regular expressions.
@@ -40,6 +41,7 @@ constexpr const char* results = R"(summary\.txt|figure\.png|energy\.png)";
 constexpr const char* frame_names = R"(frame_\d{4,}\.hdf)";
 constexpr const char* own_frames = R"(frame_\d{4,}\.hdf|frames\.hdf\.series)";
 constexpr const char* own_checkpoints = R"(checkpoint_\d{8,}\.hdf)";
+constexpr const char* own_surfaces = R"((membrane|boundary)_\d{4,}\.vtp|(membrane|boundary)\.pvd)";
 constexpr std::size_t checkpoints_kept = 2;
 
 std::string frame_file(std::size_t number) { return fmt::format("frame_{:04}.hdf", number); }
@@ -91,7 +93,8 @@ void erase(const fs::path& folder, const char* names) {
 /// The scene last: as long as it is there, the folder holds a run.
 void erase_run(const fs::path& folder) {
   for (const auto& [name, own] :
-       {std::pair{checkpoints_folder, own_checkpoints}, std::pair{frames_folder, own_frames}}) {
+       {std::pair{checkpoints_folder, own_checkpoints}, std::pair{frames_folder, own_frames},
+        std::pair{surfaces_name, own_surfaces}}) {
     const fs::path inner = folder / name;
     erase(inner, own);
     if (fs::is_directory(inner) && fs::is_empty(inner)) fs::remove(inner);
@@ -187,6 +190,7 @@ RunFolder::RunFolder(const fs::path& folder, const Simulation& now, const Checkp
     lock_.emplace(folder);
     remove_unfinished_files(folder);
     erase(folder, results);
+    erase(folder / surfaces_name, own_surfaces);
     const std::size_t frames = from ? from->frame_times.size() : 0;
     for (std::size_t i = 0; i < frames; i++)
       series_.push_back({frame_file(i), from->frame_times[i]});
@@ -283,6 +287,15 @@ void RunFolder::write_summary(const std::string& text) {
   write_text_atomically(folder_ / summary_file, text);
 }
 
+fs::path surfaces_folder(const fs::path& run) { return run / surfaces_name; }
+
+void clear_surfaces(const fs::path& folder) {
+  or_store_error(folder, "cannot be used as a folder", [&] {
+    fs::create_directories(folder);
+    erase(folder, own_surfaces);
+  });
+}
+
 std::optional<fs::path> end_of_run(const fs::path& folder) {
   return or_store_error(folder, "cannot be read", [&]() -> std::optional<fs::path> {
     if (!holds_run(folder) || !fs::exists(folder / summary_file)) return {};
@@ -310,6 +323,7 @@ void remove_unfinished_files(const fs::path& folder) {
     erase_unfinished(folder, own_scene);
     erase_unfinished(folder / frames_folder, own_frames);
     erase_unfinished(folder / checkpoints_folder, own_checkpoints);
+    erase_unfinished(folder / surfaces_name, own_surfaces);
   });
 }
 

@@ -43,6 +43,7 @@ private:
 ///   checkpoints/checkpoint_00000123.hdf   after so many steps, all it takes to go on; the last two
 ///   figure.png, energy.png  pictures
 ///   summary.txt             the outcome in words
+///   surfaces/               the membrane of each frame, where it was exported
 class RunFolder {
 public:
   /// Creates the folder, or removes what an earlier run left there and nothing else. The history
@@ -92,6 +93,12 @@ private:
 /// The last frame of a run that has ended, also early; nothing for any other folder. Throws
 /// StoreError for one that cannot be read.
 std::optional<std::filesystem::path> end_of_run(const std::filesystem::path& folder);
+
+/// Where the surfaces of a run go that are asked for later; they are replaced with it.
+std::filesystem::path surfaces_folder(const std::filesystem::path& run);
+
+/// Makes a folder for surfaces and removes those of an earlier export. Throws StoreError.
+void clear_surfaces(const std::filesystem::path& folder);
 
 /// Throws UsageError for a folder that holds no run.
 void require_run(const std::filesystem::path& folder);

@@ -2,7 +2,7 @@
 #
 # Components are named one by one: without, every VTK module's third-party packages would be searched for.
 set(lamella_vtk_components
-  CommonCore CommonDataModel CommonExecutionModel FiltersCore
+  CommonCore CommonDataModel CommonExecutionModel FiltersCore IOXML
   RenderingCore RenderingOpenGL2)
 if(LAMELLA_PYTHON)
   list(APPEND lamella_vtk_components Python WrappingPythonCore)

@@ -4,12 +4,11 @@
 #include "fields/refine.h"
 #include "fields/state_data.h"
 #include "parallel.h"
+#include "render/filter_output.h"
 #include "render/labels.h"
 #include "render/occlusion.h"
 #include "render/render.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -29,22 +28,11 @@ namespace {
 constexpr int fine_cells = 90;
 constexpr int largest_refinement = 4;
 
-/// A filter's output. Its errors are thrown as RenderError; what it warns of does not matter to a
-/// picture.
-vtkSmartPointer<vtkPolyData> output_of(vtkPolyDataAlgorithm& filter, vtkImageData& image) {
-  std::string error;
-  vtkNew<vtkCallbackCommand> listener;
-  listener->SetClientData(&error);
-  listener->SetCallback([](vtkObject*, unsigned long event, void* text, void* message) {
-    if (event == vtkCommand::ErrorEvent)
-      *static_cast<std::string*>(text) = static_cast<const char*>(message);
-  });
-  filter.AddObserver(vtkCommand::ErrorEvent, listener);
-  filter.AddObserver(vtkCommand::WarningEvent, listener);
-  filter.SetInputData(&image);
-  filter.Update();
-  if (!error.empty()) throw RenderError(error);
-  return filter.GetOutput();
+/// What a filter warns of does not matter to a picture.
+vtkSmartPointer<vtkPolyData> drawn_output_of(vtkPolyDataAlgorithm& filter, vtkImageData& image) {
+  FilterOutput output = output_of(filter, image);
+  if (!output.error.empty()) throw RenderError(output.error);
+  return output.data;
 }
 
 /// The half-diagonal of the inside's bounding box.
@@ -88,10 +76,10 @@ Surface extract(vtkImageData& image, const Frame& frame, bool with_curvatures) {
   vtkNew<vtkMembraneSurface> membrane;
   membrane->SetRefinement(std::clamp(int(std::ceil(wanted)), 1, largest_refinement));
   membrane->SetComputeCurvatures(with_curvatures);
-  Surface surface{frame.time, output_of(*membrane, image), {}, nullptr};
+  Surface surface{frame.time, drawn_output_of(*membrane, image), {}, nullptr};
   add_occlusion(*surface.mesh, frame, 0.12 * size);
   surface.parts = patches(*surface.mesh);
-  if (!frame.psi.empty()) surface.boundary = output_of(*vtkNew<vtkPhaseBoundary>(), image);
+  if (!frame.psi.empty()) surface.boundary = drawn_output_of(*vtkNew<vtkPhaseBoundary>(), image);
   return surface;
 }
 
