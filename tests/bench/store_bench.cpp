@@ -92,6 +92,7 @@ BENCHMARK_CAPTURE(stored_run, fig3_oblate, "fig3_oblate")->Iterations(1);
 BENCHMARK_CAPTURE(stored_run, fig7c_three, "fig7c_three")->Iterations(1);
 BENCHMARK_CAPTURE(stored_run, fig8c, "fig8c")->Iterations(1);
 BENCHMARK_CAPTURE(stored_run, fig9, "fig9")->Iterations(1);
+BENCHMARK_CAPTURE(stored_run, fig15a, "fig15a")->Iterations(1);
 
 } // namespace
 } // namespace lamella
