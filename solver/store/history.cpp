@@ -22,25 +22,26 @@ std::vector<Record> read_records(const std::filesystem::path& file, std::string_
 }
 
 void append(Row& row, PhaseMeasures& m) {
-  row.insert(row.end(), {{"bending_Ld", &m.bending_energy_Ld},
-                         {"bending_Lo", &m.bending_energy_Lo},
-                         {"gaussian_energy", &m.gaussian_energy},
-                         {"line_energy", &m.line_energy},
-                         {"sigma_Ld", &m.sigma_Ld},
-                         {"sigma_Lo", &m.sigma_Lo},
-                         {"A_Ld", &m.area_Ld},
-                         {"A_Lo", &m.area_Lo},
+  row.insert(row.end(), {{"bending_Ld", &m.bending_energy_Ld, "energy"},
+                         {"bending_Lo", &m.bending_energy_Lo, "energy"},
+                         {"gaussian_energy", &m.gaussian_energy, "energy"},
+                         {"line_energy", &m.line_energy, "energy"},
+                         {"sigma_Ld", &m.sigma_Ld, "energy/length²"},
+                         {"sigma_Lo", &m.sigma_Lo, "energy/length²"},
+                         {"A_Ld", &m.area_Ld, "length²"},
+                         {"A_Lo", &m.area_Lo, "length²"},
                          {"dA_Ld_rel", &m.area_Ld_drift},
-                         {"line_length", &m.line_length},
-                         {"line_radius", &m.line_radius},
-                         {"max_line_speed", &m.max_line_speed},
+                         {"line_length", &m.line_length, "length"},
+                         {"line_radius", &m.line_radius, "length"},
+                         {"max_line_speed", &m.max_line_speed, "length/time"},
                          {"domains_Ld", &m.domains_Ld},
                          {"domains_Lo", &m.domains_Lo}});
 }
 
 void append(Row& row, StretchMeasures& m) {
-  row.insert(row.end(),
-             {{"stretch_energy", &m.energy}, {"c_min", &m.least}, {"c_max", &m.greatest}});
+  row.insert(
+      row.end(),
+      {{"stretch_energy", &m.energy, "energy"}, {"c_min", &m.least}, {"c_max", &m.greatest}});
 }
 
 /// The terms of the energy that not every scene has.
@@ -86,47 +87,47 @@ Measures measures_with(std::span<const std::string> columns) {
 }
 
 Row row_of(Measures& m) {
-  Row row{{"t", &m.time},
-          {"dt", &m.dt},
-          {"energy", &m.energy},
-          {"bending_energy", &m.bending_energy},
+  Row row{{"t", &m.time, "time"},
+          {"dt", &m.dt, "time"},
+          {"energy", &m.energy, "energy"},
+          {"bending_energy", &m.bending_energy, "energy"},
           {"int_KM2", &m.int_KM2},
-          {"P", &m.P},
-          {"sigma", &m.sigma},
-          {"K_multiplier", &m.K_multiplier},
-          {"A", &m.area},
-          {"V", &m.volume},
+          {"P", &m.P, "energy/length³"},
+          {"sigma", &m.sigma, "energy/length²"},
+          {"K_multiplier", &m.K_multiplier, "energy/length"},
+          {"A", &m.area, "length²"},
+          {"V", &m.volume, "length³"},
           {"v", &m.reduced_volume},
           {"Da", &m.area_difference},
           {"dA_rel", &m.area_drift},
           {"dV_rel", &m.volume_drift},
-          {"max_speed", &m.max_speed},
+          {"max_speed", &m.max_speed, "length/time"},
           {"components", &m.components},
           {"genus", &m.genus}};
   if (m.phases) append(row, *m.phases);
   if (m.stretch) append(row, *m.stretch);
   for (const auto& [column, term] : optional_terms(m))
-    if (*term) row.push_back({column, &**term});
+    if (*term) row.push_back({column, &**term, "energy"});
   return row;
 }
 
 Row row_of(Event& e) {
-  return {{"t", &e.time},
+  return {{"t", &e.time, "time"},
           {"kind", &e.kind},
-          {"x", &e.place[0]},
-          {"y", &e.place[1]},
-          {"z", &e.place[2]},
-          {"size", &e.size},
+          {"x", &e.place[0], "length"},
+          {"y", &e.place[1], "length"},
+          {"z", &e.place[2], "length"},
+          {"size", &e.size, "length"},
           {"components_before", &e.components_before},
           {"components_after", &e.components_after},
           {"genus_before", &e.genus_before},
           {"genus_after", &e.genus_after},
           {"domains_before", &e.domains_before},
           {"domains_after", &e.domains_after},
-          {"A_before", &e.area_before},
-          {"A_cut", &e.area_cut},
-          {"energy_before", &e.energy_before},
-          {"energy_after", &e.energy_after},
+          {"A_before", &e.area_before, "length²"},
+          {"A_cut", &e.area_cut, "length²"},
+          {"energy_before", &e.energy_before, "energy"},
+          {"energy_after", &e.energy_after, "energy"},
           {"cells_x", &e.cells[0]},
           {"cells_y", &e.cells[1]},
           {"cells_z", &e.cells[2]}};

@@ -15,6 +15,7 @@ namespace lamella {
 struct Field {
   std::string_view column;
   std::variant<double*, int*, Event::Kind*> value;
+  std::string_view unit = {}; ///< in words, as in scene/keys.cpp: "energy/length²"
 };
 using Row = std::vector<Field>;
 

@@ -1,0 +1,68 @@
+#include "scene/units.h"
+
+#include "scene/keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lamella {
+
+namespace {
+
+/// Exponents of the two units that are free.
+struct Dimension {
+  int length = 0, energy = 0;
+};
+
+Dimension of_word(std::string_view word) {
+  if (word == "length") return {1, 0};
+  if (word == "energy") return {0, 1};
+  if (word == "time") return {4, -1};
+  return {};
+}
+
+/// Of a product such as "energy time" or "length³".
+Dimension of_product(std::string_view product) {
+  constexpr std::pair<std::string_view, int> powers[]{{"²", 2}, {"³", 3}, {"⁴", 4}};
+  Dimension sum;
+  while (!product.empty()) {
+    std::string_view word = product.substr(0, product.find(' '));
+    product.remove_prefix(std::min(product.size(), word.size() + 1));
+    int power = 1;
+    for (const auto& [sign, n] : powers)
+      if (word.ends_with(sign)) {
+        power = n;
+        word.remove_suffix(sign.size());
+      }
+    const Dimension d = of_word(word);
+    sum.length += power * d.length;
+    sum.energy += power * d.energy;
+  }
+  return sum;
+}
+
+} // namespace
+
+double UnitChange::factor(std::string_view unit) const {
+  const std::size_t slash = unit.find('/');
+  const Dimension above = of_product(unit.substr(0, slash));
+  const Dimension below = slash == unit.npos ? Dimension{} : of_product(unit.substr(slash + 1));
+  return std::pow(length, above.length - below.length) *
+         std::pow(energy, above.energy - below.energy);
+}
+
+Scene in_units(Scene scene, const UnitChange& change) {
+  for (const Key& key : scene_keys()) {
+    const double factor = change.factor(key.unit);
+    if (factor == 1) continue;
+    if (const auto* number = std::get_if<Member<double>>(&key.access)) (*number)(scene) *= factor;
+    if (const auto* vector = std::get_if<Member<Vec3>>(&key.access))
+      for (double& x : (*vector)(scene)) x *= factor;
+    if (const auto* list = std::get_if<Member<std::vector<double>>>(&key.access))
+      for (double& x : (*list)(scene)) x *= factor;
+  }
+  return scene;
+}
+
+} // namespace lamella

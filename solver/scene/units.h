@@ -1,0 +1,21 @@
+#pragma once
+#include "scene/scene.h"
+
+#include <string_view>
+
+namespace lamella {
+
+/// Other units of length and energy, as factors of the numbers that are given in them. Time
+/// follows: the drag coefficient of the membrane is 1, so its unit is length^4 / energy.
+struct UnitChange {
+  double length = 1, energy = 1;
+
+  /// By what a number in this unit is multiplied: "energy/length³", "1/time"; 1 for what has none
+  /// of the three in it ("", "degrees", "grid spacings", "seconds" of wall-clock time).
+  double factor(std::string_view unit) const;
+};
+
+/// The same physics in other units: every value of scene/keys.cpp with a unit is converted.
+Scene in_units(Scene scene, const UnitChange& change);
+
+} // namespace lamella
