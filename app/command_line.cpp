@@ -99,9 +99,11 @@ constexpr const char* extremes_notes = R"(Examples:
   lamella extremes                     all cases, some minutes
   lamella extremes --quick             a minute's worth of them
   lamella extremes --only prolate      those with "prolate" in their names
+  lamella extremes --random 100        a hundred random scenes against the laws of every run
 
 Each case comes to its known answer or is told what it lacks. The output folder receives extremes.md
-and extremes.csv. docs/extremes.md says more. Exit code 1: a case came out wrong without a word.)";
+and extremes.csv; with --random, random.csv and each scene that broke a law. docs/extremes.md says more.
+Exit code 1: a case came out wrong without a word, or a law was broken.)";
 
 void add_backend(CLI::App& command, std::string& backend) {
   command.add_option("--backend", backend, "How pictures are drawn: auto, osmesa, egl or x")
@@ -358,6 +360,15 @@ void add_extremes(CLI::App& app, ExtremesOptions& options) {
   extremes.add_option("--only", options.only, "Cases with this in their names alone")
       ->type_name("PATTERN");
   extremes.add_flag("--quick", options.quick, "A minute's worth of cases");
+  extremes
+      .add_option("--random", options.random,
+                  "In place of the cases, N random scenes that must obey the laws of every run")
+      ->check(CLI::Range(1, 1000000).description(""))
+      ->excludes("--only", "--quick")
+      ->type_name("N");
+  extremes.add_option("--seed", options.seed, "Which random scenes (default: 1)")
+      ->check(CLI::Range(0, 1000000000).description(""))
+      ->type_name("S");
   add_threads(extremes, options.threads);
 }
 

@@ -105,11 +105,14 @@ struct ExtremesOptions {
   std::filesystem::path folder = "extremes";
   std::string only; ///< a part of the names of those cases to run; empty: all
   bool quick = false;
+  int random = 0; ///< so many random scenes in place of the cases
+  int seed = 1;
   int threads = 0; ///< 0: all
 };
 
-/// Runs the cases at the limits of the method and writes a table of them into the folder. Returns
-/// an ExitCode, `unexpected` where a case came out wrong; throws UsageError, StoreError.
+/// Runs the cases at the limits of the method, or random scenes, and writes a table of them into
+/// the folder. Returns an ExitCode, `unexpected` where a case came out wrong or a scene broke a
+/// law; throws UsageError, StoreError.
 int extremes(const ExtremesOptions& options);
 
 } // namespace lamella

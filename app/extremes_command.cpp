@@ -2,10 +2,13 @@
 
 #include "error.h"
 #include "exit_code.h"
+#include "extremes/laws.h"
+#include "extremes/random_scene.h"
 #include "extremes/report.h"
 #include "interrupt.h"
 #include "parallel.h"
 #include "progress.h"
+#include "scene/scene_toml.h"
 #include "store/atomic_file.h"
 #include "usage_error.h"
 
@@ -18,7 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *table_file = "extremes.csv", *page_file = "extremes.md";
+constexpr const char *table_file = "extremes.csv", *page_file = "extremes.md",
+                     *random_file = "random.csv";
 
 /// Those that the options ask for. Throws UsageError where these are none.
 std::vector<ExtremeCase> chosen(const ExtremesOptions& options) {
@@ -56,19 +60,51 @@ std::vector<CaseResult> carry_out(std::span<const ExtremeCase> cases, const fs::
   return results;
 }
 
-} // namespace
+/// Of a random scene: its table row, and the scene itself where it broke a law.
+std::string note_report(const LawReport& report, const fs::path& folder) {
+  const Scene& scene = report.run.scene;
+  if (!report.broken.empty())
+    write_text_atomically(folder / (scene.name + ".toml"), to_toml(scene));
+  return law_row(report);
+}
 
-int extremes(const ExtremesOptions& options) {
-  const std::vector<ExtremeCase> cases = chosen(options);
-  create(options.folder);
-  set_thread_count(options.threads);
-  watch_for_interrupt();
-  const std::vector<CaseResult> results = carry_out(cases, options.folder);
-  say(fmt::format("{}\nIn {}: {}, {}\n", count_of_verdicts(results), options.folder.string(),
-                  table_file, page_file));
+int check_random_scenes(const ExtremesOptions& options) {
+  std::string table = law_columns();
+  int wrong = 0, done = 0;
+  const auto go_on = [] { return !interrupt_requested(); };
+  for (int number = 1; number <= options.random && go_on(); number++) {
+    const LawReport report = check_laws(random_scene(std::uint64_t(options.seed), number), go_on);
+    if (!go_on()) break;
+    say(law_text(report));
+    table += note_report(report, options.folder);
+    write_text_atomically(options.folder / random_file, table);
+    wrong += !report.broken.empty();
+    done++;
+  }
+  say(fmt::format("{} scene{}: {} broke a law\nIn {}: {}{}\n", done, done == 1 ? "" : "s", wrong,
+                  options.folder.string(), random_file,
+                  wrong > 0 ? ", and the scenes that did" : ""));
+  return interrupt_requested() ? interrupted : wrong > 0 ? unexpected : success;
+}
+
+int run_cases(const std::vector<ExtremeCase>& cases, const fs::path& folder) {
+  const std::vector<CaseResult> results = carry_out(cases, folder);
+  say(fmt::format("{}\nIn {}: {}, {}\n", count_of_verdicts(results), folder.string(), table_file,
+                  page_file));
   if (interrupt_requested()) return interrupted;
   const bool wrong = std::ranges::count(results, Verdict::wrong, &CaseResult::verdict) > 0;
   return wrong ? unexpected : success;
+}
+
+} // namespace
+
+int extremes(const ExtremesOptions& options) {
+  const bool random = options.random > 0;
+  const std::vector<ExtremeCase> cases = random ? std::vector<ExtremeCase>{} : chosen(options);
+  create(options.folder);
+  set_thread_count(options.threads);
+  watch_for_interrupt();
+  return random ? check_random_scenes(options) : run_cases(cases, options.folder);
 }
 
 } // namespace lamella

@@ -122,4 +122,29 @@ std::string extremes_markdown(std::span<const CaseResult> results) {
   return page;
 }
 
+std::string law_text(const LawReport& report) {
+  const Trace& run = report.run;
+  const std::size_t steps = run.history.empty() ? 0 : run.history.size() - 1;
+  std::string text = fmt::format("{:<18} {:>3} steps  {}\n", run.scene.name, steps,
+                                 report.broken.empty() ? "obeys" : "BREAKS A LAW");
+  if (!run.message.empty()) text += fmt::format("    stopped: {}\n", run.message);
+  for (const BrokenLaw& law : report.broken) text += fmt::format("    {}: {}\n", law.law, law.how);
+  return text;
+}
+
+std::string law_columns() { return "scene,phases,steps,t,energy,events,stopped,broken\n"; }
+
+std::string law_row(const LawReport& report) {
+  const Trace& run = report.run;
+  const bool started = !run.history.empty();
+  std::vector<std::string> broken;
+  for (const BrokenLaw& law : report.broken)
+    broken.push_back(fmt::format("{}: {}", law.law, law.how));
+  return fmt::format(
+      "{},{},{},{},{},{},{},{}\n", run.scene.name, run.scene.has_phases() ? 2 : 1,
+      started ? run.history.size() - 1 : 0, started ? cell(run.history.back().time) : "",
+      started ? cell(run.history.back().energy) : "", run.events.size(), quoted_cell(run.message),
+      quoted_cell(fmt::format("{}", fmt::join(broken, "; "))));
+}
+
 } // namespace lamella

@@ -1,4 +1,5 @@
 #pragma once
+#include "extremes/laws.h"
 #include "extremes/verdict.h"
 
 #include <span>
@@ -18,5 +19,11 @@ std::string extremes_csv(std::span<const CaseResult> results);
 
 /// All cases as a Markdown page, with the machine.
 std::string extremes_markdown(std::span<const CaseResult> results);
+
+/// Of a random scene: a line for a person, and one more for each law that it broke.
+std::string law_text(const LawReport& report);
+/// The first line of random.csv, and a row.
+std::string law_columns();
+std::string law_row(const LawReport& report);
 
 } // namespace lamella
