@@ -22,10 +22,6 @@ using render::StoredStates;
 
 constexpr double page_width = 2800; ///< 178 mm, two columns of a journal
 
-constexpr render::Color curve_colors[]{render::style::membrane.line, render::style::Lo.line,
-                                       render::style::gaussian_energy, render::style::line_energy,
-                                       render::style::stretch_energy};
-
 /// The states that a panel shows. Throws SceneError for a time that the run does not come to.
 std::vector<render::State> states_of(const StoredStates& run, const MembranePanel& panel) {
   const auto& frames = run.frames();
@@ -44,35 +40,57 @@ std::vector<render::State> states_of(const StoredStates& run, const MembranePane
 }
 
 /// What the exact solution of a built-in scene says of a column; no points where there is none.
-render::Series exact_series(const StoredStates& run, const PlotPanel& panel,
+render::Series exact_series(const StoredStates& run, const RunSpec& spec,
                             const std::string& column) {
   render::Series series{"exact", render::style::ink};
   series.dashed = true;
   series.width = render::style::hairline * 1.5;
   Scene scene = run.scene();
-  scene.name = panel.runs.front().scene;
+  scene.name = spec.scene;
   const std::optional<Reference> reference = builtin_reference(scene);
   if (!reference || reference->at_rest()) return series;
   for (const Measures& m : run.history()) {
     if (m.time == 0) continue;
-    const ReferenceState state = reference->at(m.time);
-    const double value = column == "int_KM2" ? state.int_KM2
-                         : column == "P"     ? state.P
-                         : column == "sigma" ? state.sigma
-                         : column == "energy"
-                             ? (std::isnan(state.energy) ? state.int_KM2 / 2 : state.energy)
-                             : NAN;
-    series.points.push_back({m.time, value});
+    const auto scaled = [&](const char* name, double value) {
+      return render::notation_of(name).value(value, run.units());
+    };
+    series.points.push_back(
+        {scaled("t", m.time), scaled(column.c_str(), reference->at(m.time).value(column))});
   }
   return series;
 }
 
-double value_or_throw(const Measures& m, const std::string& column, const RunSpec& run) {
-  const std::optional<double> value = value_of(m, column);
-  if (!value)
-    throw SceneError(
-        fmt::format("{}: \"{}\" is not a column of its history.csv", run.scene, column));
-  return *value;
+std::string name_of(const PlotPanel& panel, std::size_t n, const StoredStates& run,
+                    const std::string& column) {
+  if (!panel.names.empty()) return panel.names[n];
+  if (panel.y.size() > 1) return render::notation_of(column).symbol();
+  return panel.exact ? render::grid_label(run.scene().nodes) : "";
+}
+
+render::Plot plot_of_columns(const PlotPanel& panel, const RunFinder& find_run) {
+  render::Plot plot;
+  std::optional<render::Units> units;
+  auto color = render::style::curves.begin();
+  for (std::size_t r = 0; r < panel.runs.size(); ++r) {
+    const StoredStates run(find_run(panel.runs[r]));
+    units = units ? common(*units, run.units()) : run.units();
+    for (const std::string& column : panel.y) {
+      render::Series series{name_of(panel, r, run, column), *color++};
+      for (const Measures& m : run.history())
+        series.points.push_back({run.value(m, panel.x), run.value(m, column)});
+      plot.series.push_back(std::move(series));
+      if (panel.exact) plot.series.push_back(exact_series(run, panel.runs[r], column));
+    }
+  }
+  render::Notation y = render::notation_of(panel.y.front());
+  if (!panel.label.empty()) y.name = panel.label, y.letter.clear();
+  plot.x.title = render::notation_of(panel.x).title(*units);
+  plot.y.title = y.title(*units);
+  return plot;
+}
+
+render::Plot plot_of_terms(const StoredStates& run) {
+  return render::energy_plot(run.history(), run.units());
 }
 
 /// The page under construction.
@@ -130,44 +148,13 @@ private:
   }
 
   std::unique_ptr<Block> block(const PlotPanel& panel, const Heading& head, int) {
-    render::Plot plot;
-    plot.x.title = notation_of(panel.x).title();
-    plot.y.title = notation_of(panel.y.front()).title();
-    std::size_t colors = 0;
-    for (std::size_t r = 0; r < panel.runs.size(); ++r) {
-      const StoredStates run(find_run_(panel.runs[r]));
-      note(panel.runs[r], run.scene());
-      if (panel.y == std::vector<std::string>{"terms"}) {
-        plot = render::energy_plot(run.history(), run.energy_unit());
-        continue;
-      }
-      for (const std::string& column : panel.y) {
-        render::Series series{name(panel, r, column),
-                              curve_colors[colors++ % std::size(curve_colors)]};
-        for (const Measures& m : run.history())
-          series.points.push_back({value_or_throw(m, panel.x, panel.runs[r]),
-                                   value_or_throw(m, column, panel.runs[r])});
-        plot.series.push_back(std::move(series));
-        if (panel.exact) plot.series.push_back(exact_series(run, panel, column));
-      }
-    }
-    plot.x.logarithmic = panel.log_x;
-    plot.y.logarithmic = panel.log_y;
-    plot.x.range = panel.x_range;
-    plot.y.range = panel.y_range;
-    if (!panel.label.empty()) plot.y.title = panel.label;
-    return std::make_unique<render::PlotBlock>(head, std::move(plot));
-  }
-
-  static std::string name(const PlotPanel& panel, std::size_t run, const std::string& column) {
-    if (!panel.names.empty()) return panel.names[run];
-    if (panel.y.size() > 1) return notation_of(column).symbol;
-    return panel.exact ? "64³" : "";
+    for (const RunSpec& run : panel.runs) note(run, StoredStates(find_run_(run)).scene());
+    return std::make_unique<render::PlotBlock>(head, plot_of(panel, find_run_));
   }
 
   std::unique_ptr<Block> block(const TablePanel& panel, const Heading& head, int) {
     tables.push_back(table_of(panel.study, evaluated(panel.study)));
-    return std::make_unique<render::TableBlock>(head, tables.back().cells);
+    return std::make_unique<render::TableBlock>(head, tables.back().cells(), 2);
   }
 
   std::unique_ptr<Block> block(const ConvergencePanel& panel, const Heading& head, int) {
@@ -185,10 +172,7 @@ private:
 
   /// For the caption: what was run on which grid.
   void note(const RunSpec& run, const Scene& scene) {
-    const auto& [x, y, z] = scene.nodes;
-    const std::string grid =
-        x == y && y == z ? fmt::format("{}³", x) : fmt::format("{}×{}×{}", x, y, z);
-    const std::string text = fmt::format("{} ({})", run.scene, grid);
+    const std::string text = fmt::format("{} ({})", run.scene, render::grid_label(scene.nodes));
     if (std::ranges::find(runs_, text) == runs_.end()) runs_.push_back(text);
   }
 
@@ -206,6 +190,17 @@ private:
 };
 
 } // namespace
+
+render::Plot plot_of(const PlotPanel& panel, const RunFinder& find_run) {
+  render::Plot plot = panel.y.front() == terms
+                          ? plot_of_terms(StoredStates(find_run(panel.runs.front())))
+                          : plot_of_columns(panel, find_run);
+  plot.x.logarithmic = panel.log_x;
+  plot.y.logarithmic = panel.log_y;
+  plot.x.range = panel.x_range;
+  plot.y.range = panel.y_range;
+  return plot;
+}
 
 FigurePage draw_figure(const FigureSpec& figure, const RunFinder& find_run, render::Camera camera) {
   Builder builder(figure, find_run);

@@ -31,15 +31,18 @@ struct MembranePanel {
   Expectations expect;
 };
 
-/// Columns of the histories of runs.
+/// As the only y of a plot: the energy of one run, and what it consists of.
+constexpr std::string_view terms = "terms";
+
+/// Columns of the histories of runs, of one dimension.
 struct PlotPanel {
   std::vector<RunSpec> runs;
   std::vector<std::string> names; ///< of the runs, in the plot
   std::string x = "t";
-  std::vector<std::string> y; ///< columns of history.csv, or "terms": the energy by term
+  std::vector<std::string> y; ///< columns of history.csv, or `terms`
   bool log_x = false, log_y = false;
   std::optional<std::array<double, 2>> x_range, y_range; ///< none: of the data
-  std::string label;  ///< of the y axis; empty: that of the first column
+  std::string label;  ///< of the y axis, without its unit; empty: that of the first column
   bool exact = false; ///< the exact solution of a built-in scene too
 };
 
@@ -50,7 +53,8 @@ struct Study {
   std::vector<double> values;                  ///< as many runs
   std::vector<std::string> quantities;         ///< columns of history.csv
   std::optional<std::array<double, 2>> window; ///< times to average over; none: the end
-  std::vector<double> exact; ///< of each quantity; empty: the exact solution that is built in
+  /// Of each quantity, in the units of pictures; empty: the exact solution that is built in.
+  std::vector<double> exact;
   std::vector<std::vector<double>> paper; ///< a row for every value, NaN where not known
 };
 struct TablePanel {

@@ -2,7 +2,9 @@
 
 #include "error.h"
 #include "scene/document.h"
+#include "scene/keys.h"
 #include "scene/nearest.h"
+#include "scene/units.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -177,6 +179,29 @@ MembranePanel membrane_in(Keys& keys, const std::string& source) {
   return panel;
 }
 
+bool are_columns(const std::vector<std::string>& names) {
+  return std::ranges::all_of(names, render::find_notation);
+}
+
+/// What one plot can show: an axis has one unit, and no two curves share a colour.
+void check_curves(const Keys& keys, const PlotPanel& panel) {
+  if (panel.y == std::vector{std::string(terms)}) {
+    keys.check("scenes", panel.runs.size() == 1, "one scene, with y = \"terms\"");
+    return;
+  }
+  keys.check("y", !panel.y.empty() && are_columns(panel.y), columns_text + ", or \"terms\"");
+  const auto dimension = [](const std::string& column) {
+    return dimension_of(render::notation_of(column).unit_in_scene);
+  };
+  keys.check("y",
+             std::ranges::all_of(
+                 panel.y, [&](const auto& y) { return dimension(y) == dimension(panel.y[0]); }),
+             "columns of one unit; a panel of its own for each other one");
+  constexpr std::size_t most = render::style::curves.size();
+  keys.check("y", panel.runs.size() * panel.y.size() <= most,
+             fmt::format("at most {} curves in a plot, a colour each", most));
+}
+
 PlotPanel plot_in(Keys& keys) {
   PlotPanel panel;
   std::vector<std::string> scenes, set;
@@ -189,9 +214,10 @@ PlotPanel plot_in(Keys& keys) {
   keys.check("names", panel.names.empty() || panel.names.size() == scenes.size(),
              "a name for each of the scenes");
   keys.take("x", panel.x, "a column of history.csv");
+  keys.check("x", render::find_notation(panel.x), "a column of history.csv");
   keys.require("y", columns_text + ", or \"terms\"");
   keys.take("y", panel.y, columns_text + ", or \"terms\"");
-  keys.check("y", !panel.y.empty(), columns_text + ", or \"terms\"");
+  check_curves(keys, panel);
   std::vector<std::string> log;
   const std::string axes = "\"x\", \"y\" or both";
   keys.take("log", log, axes);
@@ -204,8 +230,11 @@ PlotPanel plot_in(Keys& keys) {
   keys.take("y_range", panel.y_range, range);
   if (panel.x_range) keys.check("x_range", (*panel.x_range)[0] < (*panel.x_range)[1], range);
   if (panel.y_range) keys.check("y_range", (*panel.y_range)[0] < (*panel.y_range)[1], range);
-  keys.take("label", panel.label, "a text");
+  const std::string label = "a name without its unit, which is put behind it";
+  keys.take("label", panel.label, label);
+  keys.check("label", panel.label.find(" / ") == panel.label.npos, label);
   keys.take("exact", panel.exact, "true or false");
+  keys.check("exact", !panel.exact || panel.x == "t", "false, unless x is t");
   return panel;
 }
 
@@ -214,11 +243,21 @@ Study study_in(Keys& keys) {
   study.run = run_in(keys);
   keys.require("vary", "a key of scenes, such as \"grid.nodes\"");
   keys.take("vary", study.vary, "a key of scenes, such as \"grid.nodes\"");
+  const bool is_number = std::ranges::any_of(scene_keys(), [&](const Key& key) {
+    return key.path() == study.vary &&
+           (study.vary == "grid.nodes" || std::holds_alternative<Member<double>>(key.access) ||
+            std::holds_alternative<Member<int>>(key.access));
+  });
+  keys.check("vary", is_number, "a key of scenes that holds a number, such as \"grid.nodes\"");
   keys.require("values", finite_numbers);
   keys.take("values", study.values, finite_numbers);
   keys.check("values", !study.values.empty(), "at least one number");
   keys.require("quantities", columns_text);
   keys.take("quantities", study.quantities, columns_text);
+  keys.check("quantities",
+             are_columns(study.quantities) &&
+                 study.quantities.size() <= render::style::curves.size(),
+             fmt::format("up to {} {}", render::style::curves.size(), columns_text));
   keys.take("window", study.window, "two times to average between");
   keys.take("exact", study.exact, "a number for each of the quantities");
   keys.check("exact", study.exact.empty() || study.exact.size() == study.quantities.size(),

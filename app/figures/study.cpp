@@ -2,6 +2,7 @@
 
 #include "error.h"
 #include "render/labels.h"
+#include "scene/keys.h"
 #include "store/history.h"
 #include "tradeoff/reference.h"
 
@@ -16,8 +17,10 @@
 namespace lamella {
 namespace {
 
+using render::notation_of;
 using render::StoredStates;
 using render::Vec2;
+using render::with_unit;
 
 /// Time mean of values between two times, by trapezia.
 template <class Value>
@@ -32,34 +35,23 @@ double mean(const std::vector<double>& times, const std::array<double, 2>& windo
   return sum / extent;
 }
 
-double column_value(const Measures& measures, const std::string& column) {
-  const std::optional<double> value = value_of(measures, column);
-  if (!value) throw SceneError(fmt::format("{}: not a column of this run's history.csv", column));
-  return *value;
-}
-
-/// At the end, or over the window.
+/// In the unit of pictures; at the end, or over the window.
 double value_of_run(const StoredStates& run, const Study& study, const std::string& column) {
   const std::vector<Measures>& history = run.history();
-  if (!study.window) return column_value(history.back(), column);
+  if (!study.window) return run.value(history.back(), column);
   std::vector<double> times;
   for (const Measures& m : history) times.push_back(m.time);
-  return mean(times, *study.window,
-              [&](std::size_t n) { return column_value(history[n], column); });
+  return mean(times, *study.window, [&](std::size_t n) { return run.value(history[n], column); });
 }
 
-/// From the exact solution that comes with the scene.
+/// From the exact solution that comes with the scene, in the unit of pictures.
 double builtin_exact(const StoredStates& run, const Study& study, const std::string& column) {
   Scene scene = run.scene();
   scene.name = study.run.scene;
   const std::optional<Reference> reference = builtin_reference(scene);
   if (!reference) return NAN;
   const auto at = [&](double time) {
-    const ReferenceState state = reference->at(time);
-    if (column == "int_KM2") return state.int_KM2;
-    if (column == "P") return state.P;
-    if (column == "sigma") return state.sigma;
-    return column == "energy" ? state.energy : NAN;
+    return notation_of(column).value(reference->at(time).value(column), run.units());
   };
   if (!study.window) return at(scene.end_time);
   std::vector<double> times(201);
@@ -68,9 +60,18 @@ double builtin_exact(const StoredStates& run, const Study& study, const std::str
   return mean(times, *study.window, [&](std::size_t n) { return at(times[n]); });
 }
 
-std::string label_of(const Study& study, std::size_t n) {
-  return study.vary == "grid.nodes" ? fmt::format("{:g}³", study.values[n])
-                                    : render::number(study.values[n]);
+bool varies_grid(const Study& study) { return study.vary == "grid.nodes"; }
+
+/// As the run has it: --set may have the last word.
+double varied_in(const Scene& scene, const Study& study) {
+  if (varies_grid(study)) return scene.grid().spacing;
+  const auto keys = scene_keys();
+  return std::stod(value_text(*std::ranges::find(keys, study.vary, &Key::path), scene));
+}
+
+std::string label_of(const Scene& scene, const Study& study) {
+  return varies_grid(study) ? render::grid_label(scene.nodes)
+                            : render::number(varied_in(scene, study));
 }
 
 std::string cell(double value, const char* format) {
@@ -88,10 +89,12 @@ std::string bare(std::string text) {
   return text;
 }
 
-/// What is varied, in words.
-std::string name_of(const std::string& key) {
-  if (key == "grid.nodes") return "grid";
-  return key == "numerics.tolerance" ? "tolerance / *h*" : key;
+/// What is varied, in words, and the unit in which a scene gives it.
+std::pair<std::string, std::string> name_and_unit(const std::string& path) {
+  if (path == "grid.nodes") return {"grid", ""};
+  if (path == "numerics.tolerance") return {"tolerance", "*h*"};
+  const auto keys = scene_keys();
+  return {path, std::string(std::ranges::find(keys, path, &Key::path)->unit)};
 }
 
 /// With the marks of Markdown.
@@ -109,39 +112,6 @@ bool knows_paper(const Study& study, std::size_t quantity) {
 
 } // namespace
 
-std::string Notation::title() const {
-  if (unit.empty()) return symbol;
-  return unit.find('/') == unit.npos ? symbol + " / " + unit : symbol + " / (" + unit + ")";
-}
-
-Notation notation_of(const std::string& column) {
-  static const std::map<std::string, Notation> known{
-      {"t", {"time *t*", "*ζL*⁴/*κ*"}},
-      {"energy", {"energy *E*", "*κ*"}},
-      {"bending_energy", {"bending energy", "*κ*"}},
-      {"int_KM2", {"∫ *K*_{M}² d*A*", ""}},
-      {"P", {"pressure *P*", "*κ*/*L*³"}},
-      {"sigma", {"tension *σ*", "*κ*/*L*²"}},
-      {"sigma_Ld", {"tension *σ*_{Ld}", "*κ*/*L*²"}},
-      {"sigma_Lo", {"tension *σ*_{Lo}", "*κ*/*L*²"}},
-      {"v", {"reduced volume *v*", ""}},
-      {"Da", {"area difference Δ*a*", ""}},
-      {"dA_rel", {"error of the area", ""}},
-      {"dV_rel", {"error of the volume", ""}},
-      {"max_speed", {"largest speed", "*κ*/*ζL*³"}},
-      {"line_energy", {"line energy", "*κ*"}},
-      {"bending_Ld", {"bending of Ld", "*κ*"}},
-      {"bending_Lo", {"bending of Lo", "*κ*"}},
-      {"line_length", {"length of the boundary", "*L*"}},
-      {"line_radius", {"radius of the boundary", "*L*"}},
-      {"components", {"components", ""}},
-      {"domains_Ld", {"Ld domains", ""}},
-      {"c_min", {"least *c*", ""}},
-      {"c_max", {"greatest *c*", ""}}};
-  const auto found = known.find(column);
-  return found == known.end() ? Notation{column, ""} : found->second;
-}
-
 StudyResult evaluate(const Study& study, const RunFinder& find_run) {
   StudyResult result;
   result.exact = study.exact;
@@ -150,8 +120,9 @@ StudyResult evaluate(const Study& study, const RunFinder& find_run) {
     if (result.exact.empty())
       for (const std::string& column : study.quantities)
         result.exact.push_back(builtin_exact(run, study, column));
-    result.spacings.push_back(run.scene().grid().spacing);
-    result.labels.push_back(label_of(study, n));
+    result.units = n == 0 ? run.units() : common(result.units, run.units());
+    result.varied.push_back(varied_in(run.scene(), study));
+    result.labels.push_back(label_of(run.scene(), study));
     result.values.emplace_back();
     for (const std::string& column : study.quantities)
       result.values.back().push_back(value_of_run(run, study, column));
@@ -162,27 +133,31 @@ StudyResult evaluate(const Study& study, const RunFinder& find_run) {
 /// A column for each quantity, then its error, and the paper's where that is known.
 FigureTable table_of(const Study& study, const StudyResult& result) {
   FigureTable table;
-  std::vector<std::string> head{name_of(study.vary)};
-  std::vector<std::string> last{"exact"};
+  const auto& [vary, vary_unit] = name_and_unit(study.vary);
+  table.names.push_back(vary);
+  table.units.push_back(vary_unit);
+  table.rows.resize(study.values.size() + 1);
+  for (std::size_t n = 0; n < study.values.size(); ++n) table.rows[n].push_back(result.labels[n]);
+  table.rows.back().emplace_back("exact");
   for (std::size_t q = 0; q < study.quantities.size(); ++q) {
-    head.push_back(notation_of(study.quantities[q]).symbol);
-    last.push_back(minus(cell(result.exact[q], "{:.4f}")));
-    head.emplace_back("error");
-    last.emplace_back("");
-    if (knows_paper(study, q)) head.emplace_back("paper's"), last.emplace_back("");
+    const render::Notation& notation = notation_of(study.quantities[q]);
+    const double exact = result.exact[q];
+    const auto column = [&](const std::string& name, auto&& cell_of, const std::string& last) {
+      table.names.push_back(name);
+      table.units.push_back(notation.unit(result.units));
+      for (std::size_t n = 0; n < study.values.size(); ++n)
+        table.rows[n].push_back(minus(cell_of(n)));
+      table.rows.back().push_back(minus(last));
+    };
+    column(
+        notation.symbol(), [&](std::size_t n) { return cell(result.values[n][q], "{:.4f}"); },
+        cell(exact, "{:.4f}"));
+    column(
+        "error", [&](std::size_t n) { return cell(result.values[n][q] - exact, "{:+.4f}"); }, "");
+    if (knows_paper(study, q))
+      column(
+          "paper's", [&](std::size_t n) { return cell(study.paper[n][q] - exact, "{:+.3f}"); }, "");
   }
-  table.cells.push_back(head);
-  for (std::size_t n = 0; n < study.values.size(); ++n) {
-    std::vector<std::string> row{result.labels[n]};
-    for (std::size_t q = 0; q < study.quantities.size(); ++q) {
-      const double value = result.values[n][q], exact = result.exact[q];
-      row.push_back(minus(cell(value, "{:.4f}")));
-      row.push_back(minus(cell(value - exact, "{:+.4f}")));
-      if (knows_paper(study, q)) row.push_back(minus(cell(study.paper[n][q] - exact, "{:+.3f}")));
-    }
-    table.cells.push_back(row);
-  }
-  table.cells.push_back(last);
   return table;
 }
 
@@ -197,19 +172,18 @@ double fitted_order(const std::vector<Vec2>& points) {
 }
 
 render::Plot convergence_plot(const Study& study, const StudyResult& result) {
-  constexpr render::Color colors[]{render::style::membrane.line, render::style::Lo.line,
-                                   render::style::gaussian_energy, render::style::line_energy,
-                                   render::style::stretch_energy};
-  const bool grids = study.vary == "grid.nodes";
+  const auto& [vary, vary_unit] = name_and_unit(study.vary);
   render::Plot plot{
-      {grids ? "grid spacing *h* / *L*" : name_of(study.vary), true}, {"relative error", true}, {}};
+      {varies_grid(study) ? "grid spacing *h* / *L*" : with_unit(vary, vary_unit), true},
+      {"relative error", true},
+      {}};
   bool paper_is_named = false;
   for (std::size_t q = 0; q < study.quantities.size(); ++q) {
-    const render::Color color = colors[q % std::size(colors)];
-    const Notation notation = notation_of(study.quantities[q]);
+    const render::Color color = render::style::curves[q];
+    const render::Notation& notation = notation_of(study.quantities[q]);
     render::Series ours{"", color}, paper{"", color};
     for (std::size_t n = 0; n < study.values.size(); ++n) {
-      const double at = grids ? result.spacings[n] : study.values[n], exact = result.exact[q];
+      const double at = result.varied[n], exact = result.exact[q];
       ours.points.push_back({at, std::abs(result.values[n][q] / exact - 1)});
       if (!study.paper.empty() && std::isfinite(study.paper[n][q]))
         paper.points.push_back({at, std::abs(study.paper[n][q] / exact - 1)});
@@ -217,8 +191,7 @@ render::Plot convergence_plot(const Study& study, const StudyResult& result) {
     std::ranges::sort(ours.points);
     std::ranges::sort(paper.points);
     const double order = fitted_order(ours.points);
-    ours.name = notation.symbol.substr(notation.symbol.rfind(' ') + 1);
-    if (notation.symbol.find("∫") != std::string::npos) ours.name = notation.symbol;
+    ours.name = notation.short_symbol();
     if (order > 0) ours.name += fmt::format(", order {:.1f}", order);
     ours.dots = paper.dots = true;
     paper.dashed = true;
@@ -231,9 +204,15 @@ render::Plot convergence_plot(const Study& study, const StudyResult& result) {
   return plot;
 }
 
+render::TableCells FigureTable::cells() const {
+  render::TableCells all{names, units};
+  all.insert(all.end(), rows.begin(), rows.end());
+  return all;
+}
+
 std::string FigureTable::csv() const {
   std::string text;
-  for (const auto& row : cells) {
+  const auto add = [&](const std::vector<std::string>& row) {
     std::vector<std::string> plain;
     for (const std::string& each : row) {
       std::string value = bare(each);
@@ -242,20 +221,27 @@ std::string FigureTable::csv() const {
       plain.push_back(value);
     }
     text += fmt::format("{}\n", fmt::join(plain, ","));
-  }
+  };
+  add(titles());
+  std::ranges::for_each(rows, add);
   return text;
 }
 
 std::string FigureTable::markdown() const {
-  std::string text;
-  for (std::size_t r = 0; r < cells.size(); ++r) {
-    text += marked(fmt::format("| {} |\n", fmt::join(cells[r], " | ")));
-    if (r > 0) continue;
-    text += "|";
-    for (std::size_t c = 0; c < cells[r].size(); ++c) text += c == 0 ? "---|" : "---:|";
-    text += "\n";
-  }
+  const auto line = [](const std::vector<std::string>& row) {
+    return marked(fmt::format("| {} |\n", fmt::join(row, " | ")));
+  };
+  std::string text = line(titles()) + "|---|";
+  for (std::size_t c = 1; c < names.size(); ++c) text += "---:|";
+  text += "\n";
+  for (const auto& row : rows) text += line(row);
   return text;
+}
+
+std::vector<std::string> FigureTable::titles() const {
+  std::vector<std::string> all;
+  for (std::size_t c = 0; c < names.size(); ++c) all.push_back(with_unit(names[c], units[c]));
+  return all;
 }
 
 } // namespace lamella

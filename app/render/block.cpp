@@ -72,7 +72,7 @@ void TableBlock::draw(Sheet& sheet, const Box& place, Camera) const {
       style.align = c == 0 ? 0 : 1;
       sheet.text({c == 0 ? left : right, y - 0.4 * row_height}, cells_[r][c], style);
     }
-    if (r == 0) rule(sheet, used, y, style::hairline);
+    if (r + 1 == heads_) rule(sheet, used, y, style::hairline);
   }
   rule(sheet, used, y + 0.1 * row_height, style::hairline * 1.5);
 }

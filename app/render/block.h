@@ -43,19 +43,21 @@ private:
   Plot plot_;
 };
 
-/// Cells as text; the first row names the columns. All columns but the first are set to the right.
+/// Cells as text. All columns but the first are set to the right.
 using TableCells = std::vector<std::vector<std::string>>;
 
 class TableBlock : public Block {
 public:
-  TableBlock(Heading heading, TableCells cells)
-      : heading_(std::move(heading)), cells_(std::move(cells)) {}
+  /// `heads`: rows above the rule.
+  TableBlock(Heading heading, TableCells cells, std::size_t heads)
+      : heading_(std::move(heading)), cells_(std::move(cells)), heads_(heads) {}
   double height(double width) const override;
   void draw(Sheet& sheet, const Box& place, Camera camera) const override;
 
 private:
   Heading heading_;
   TableCells cells_;
+  std::size_t heads_;
 };
 
 /// A paragraph in small type.

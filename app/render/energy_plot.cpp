@@ -33,7 +33,8 @@ std::vector<Term> terms(const Measures& m) {
 }
 
 /// The whole energy, then its terms.
-std::vector<Series> energy_series(const std::vector<Measures>& history, double bending_modulus) {
+std::vector<Series> energy_series(const std::vector<Measures>& history, const Units& units) {
+  const Notation &t = notation_of("t"), &energy = notation_of("energy");
   std::vector<Series> all(1);
   for (const Measures& row : history) {
     const std::vector<Term> parts = terms(row);
@@ -41,11 +42,12 @@ std::vector<Series> energy_series(const std::vector<Measures>& history, double b
         !std::ranges::all_of(parts, [](const Term& t) { return std::isfinite(t.energy); }))
       continue;
     all.resize(1 + parts.size());
-    all[0].points.push_back({row.time, row.energy / bending_modulus});
+    const double time = t.value(row.time, units);
+    all[0].points.push_back({time, energy.value(row.energy, units)});
     for (std::size_t n = 0; n < parts.size(); ++n) {
       all[n + 1].name = parts[n].name;
       all[n + 1].color = parts[n].color;
-      all[n + 1].points.push_back({row.time, parts[n].energy / bending_modulus});
+      all[n + 1].points.push_back({time, energy.value(parts[n].energy, units)});
     }
   }
   if (all[0].points.empty()) throw RenderError("nothing to plot: the history has no finite energy");
@@ -67,8 +69,8 @@ double time_of_change(const std::vector<Vec2>& energies, double part) {
   return energies.back()[0];
 }
 
-Axis time_axis(const std::vector<Vec2>& energies) {
-  Axis axis{"time *t* / (*ζL*⁴/*κ*)"};
+Axis time_axis(const std::vector<Vec2>& energies, const Units& units) {
+  Axis axis{notation_of("t").title(units)};
   const double begin = time_of_change(energies, 0.005), end = energies.back()[0];
   axis.logarithmic = end > 0 && end >= 100 * begin && time_of_change(energies, 0.5) < 0.05 * end;
   if (axis.logarithmic) axis.range = {begin / 1.2, end * 1.2};
@@ -77,9 +79,10 @@ Axis time_axis(const std::vector<Vec2>& energies) {
 
 } // namespace
 
-Plot energy_plot(const std::vector<Measures>& history, double bending_modulus) {
-  std::vector<Series> series = energy_series(history, bending_modulus);
-  return {time_axis(series[0].points), {"energy *E* / *κ*"}, std::move(series)};
+Plot energy_plot(const std::vector<Measures>& history, const Units& units) {
+  std::vector<Series> series = energy_series(history, units);
+  return {
+      time_axis(series[0].points, units), {notation_of("energy").title(units)}, std::move(series)};
 }
 
 } // namespace lamella::render

@@ -14,12 +14,6 @@ namespace {
 constexpr std::array<const char*, 10> superscripts{"⁰", "¹", "²", "³", "⁴",
                                                    "⁵", "⁶", "⁷", "⁸", "⁹"};
 
-std::string superscript(int value) {
-  std::string text;
-  for (char c : std::to_string(value)) text += c == '-' ? "⁻" : superscripts[c - '0'];
-  return text;
-}
-
 /// A true minus sign instead of the hyphen.
 std::string with_minus(const std::string& text) {
   return text.starts_with('-') ? std::string("−").append(text, 1) : text;
@@ -35,6 +29,12 @@ double round_step(double most) {
 
 } // namespace
 
+std::string superscript(int value) {
+  std::string text;
+  for (char c : std::to_string(value)) text += c == '-' ? "⁻" : superscripts[c - '0'];
+  return text;
+}
+
 std::string power_of_ten(int exponent) { return "10" + superscript(exponent); }
 
 std::string number(double value, int digits) {
@@ -45,6 +45,11 @@ std::string number(double value, int digits) {
   if (exponent >= -2 && exponent < 5) return with_minus(fmt::format("{:g}", std::stod(rounded)));
   return with_minus(fmt::format("{:g}", std::stod(rounded.substr(0, e)))) + "×" +
          power_of_ten(exponent);
+}
+
+std::string grid_label(const std::array<int, 3>& nodes) {
+  const auto& [x, y, z] = nodes;
+  return x == y && y == z ? fmt::format("{}³", x) : fmt::format("{}×{}×{}", x, y, z);
 }
 
 std::string plain(const std::string& text) {

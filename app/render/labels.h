@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,8 +9,14 @@ namespace lamella::render {
 /// "1.6×10⁻³". Powers of ten appear below 0.01 and from 10⁵ on.
 std::string number(double value, int digits = 3);
 
+/// "⁻³"
+std::string superscript(int value);
+
 /// "10⁻³"
 std::string power_of_ten(int exponent);
+
+/// "64³", or "64×64×96"
+std::string grid_label(const std::array<int, 3>& nodes);
 
 /// The text in ASCII, for messages and for fonts without Greek and superscripts: "1.6x10^-3".
 std::string plain(const std::string& text);

@@ -80,21 +80,4 @@ ValueRange range_of(Quantity quantity, const std::vector<Surface>& surfaces) {
   return {low, std::max(high, low + least)};
 }
 
-std::string title_of(Quantity quantity) {
-  switch (quantity) {
-  case Quantity::K_M:
-    return "*K*_{M} / *L*⁻¹";
-  case Quantity::K:
-    return "*K* / *L*⁻²";
-  case Quantity::energy_density:
-    return "energy density / (*κ* *L*⁻²)";
-  case Quantity::c:
-    return "lipid per area, *c*";
-  case Quantity::velocity:
-    return "*v*_{N} / (*κ*/*ζL*³)";
-  default:
-    return "";
-  }
-}
-
 } // namespace lamella::render

@@ -31,7 +31,4 @@ private:
 /// about 0, or 1 for c, where the quantity has a middle there.
 ValueRange range_of(Quantity quantity, const std::vector<Surface>& surfaces);
 
-/// "*K*_{M} / *L*⁻¹": with its unit, as a legend.
-std::string title_of(Quantity quantity);
-
 } // namespace lamella::render

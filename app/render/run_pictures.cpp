@@ -4,8 +4,11 @@
 #include "render/paper.h"
 #include "render/tradeoff_plot.h"
 
+#include "error.h"
 #include "fields/run_files.h"
 #include "scene/scene_toml.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +27,14 @@ StoredStates::StoredStates(const std::filesystem::path& folder) {
   frames_ = files.frames;
   if (folder.is_relative()) // as the user calls them, in messages
     for (SeriesEntry& frame : frames_) frame.file = std::filesystem::proximate(frame.file);
+}
+
+double StoredStates::value(const Measures& measures, const std::string& column) const {
+  const std::optional<double> value = value_of(measures, column);
+  if (!value)
+    throw SceneError(
+        fmt::format("{}: \"{}\" is not a column of its history.csv", scene_.name, column));
+  return notation_of(column).value(*value, units());
 }
 
 State StoredStates::at(double time) const {
@@ -59,8 +70,7 @@ std::vector<std::filesystem::path> draw_run(const StoredStates& run,
                                                  folder / ("energy" + kind)};
   const double pixels = options.width / page_width, dpi = pixels * units_per_inch;
   write_sheet(files[0], page.draw({studio, pixels}), dpi, options.background);
-  write_sheet(files[1], sheet_of(energy_plot(run.history(), run.energy_unit())), dpi,
-              options.background);
+  write_sheet(files[1], sheet_of(energy_plot(run.history(), run.units())), dpi, options.background);
   return files;
 }
 

@@ -19,10 +19,10 @@ public:
   const Scene& scene() const { return scene_; }
   const std::vector<Measures>& history() const { return history_; }
   const std::vector<SeriesEntry>& frames() const { return frames_; } ///< at least one
-  /// kappa, with phases that of Ld: the unit of energy in plots.
-  double energy_unit() const {
-    return scene_.has_phases() ? scene_.ld.bending_modulus : scene_.membrane.bending_modulus;
-  }
+  Units units() const { return Units(scene_); }
+  /// Of a column of history.csv in the unit of pictures. Throws SceneError where the run does not
+  /// have it.
+  double value(const Measures& measures, const std::string& column) const;
   /// The frame nearest to a time. Throws StoreError.
   State at(double time) const;
 

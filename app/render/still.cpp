@@ -55,10 +55,11 @@ Picture Still::draw(const Surface& surface, Studio& studio, int width, int heigh
                     {view_.color, palette_ ? &*palette_ : nullptr});
   Sheet sheet(page_width, page_height);
   sheet.picture(window.place, studio.shoot(*renderer, window.columns, window.rows));
-  sheet.text({margin, margin + 0.8 * style::type_size}, time_label(surface.time),
+  sheet.text({margin, margin + 0.8 * style::type_size}, time_label(surface.time, surface.units),
              {style::type_size, style::ink});
   draw_keys(sheet, {margin, page_height - margin, page_width - 2 * margin, 0}, scale,
-            palette_ ? &*palette_ : nullptr, view_.color, has_phases_, 0.25 * page_width);
+            palette_ ? &*palette_ : nullptr, view_.color, surface.units, has_phases_,
+            0.25 * page_width);
   return print(sheet, width, background);
 }
 

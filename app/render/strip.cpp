@@ -37,7 +37,8 @@ void add_legend(Sheet& sheet, const Vec2& left) {
 }
 
 /// The colours of a quantity and their values, from `left` on.
-void add_color_bar(Sheet& sheet, const Vec2& left, const Palette& palette, Quantity quantity) {
+void add_color_bar(Sheet& sheet, const Vec2& left, const Palette& palette, Quantity quantity,
+                   const Units& units) {
   constexpr double length = 360, thickness = 26;
   const auto [low, high] = palette.range();
   Picture bar{256, 1, {}};
@@ -49,7 +50,8 @@ void add_color_bar(Sheet& sheet, const Vec2& left, const Palette& palette, Quant
   sheet.text({x, left[1]}, number(low, 2), small);
   x += text_width(number(low, 2), small) + 16;
   sheet.picture({x, top, length, thickness}, bar);
-  sheet.text({x + length / 2, top - 16}, title_of(quantity), {style::small_type, style::ink, 0.5});
+  sheet.text({x + length / 2, top - 16}, notation_of(to_string(quantity)).title(units),
+             {style::small_type, style::ink, 0.5});
   sheet.text({x + length + 16, left[1]}, number(high, 2), small);
 }
 
@@ -73,11 +75,12 @@ void add_axes(Sheet& sheet, const Vec2& origin) {
 
 /// Where everything goes, from the upper left corner of the strip.
 struct Strip::Layout {
-  bool beside = false;      ///< sections beside the views
-  double cell = 0;          ///< width of a state
-  double scale = 0;         ///< page units per length of the box
-  double top = 0, rows = 0; ///< of the views; height of views and sections together
-  Vec2 view, section;       ///< their middles, from the upper left corner of a state
+  bool beside = false;                  ///< sections beside the views
+  double cell = 0;                      ///< width of a state
+  double scale = 0;                     ///< page units per length of the box
+  double top = 0, rows = 0;             ///< of the views; height of views and sections together
+  double type_size = style::small_type; ///< of the times, smaller where states are narrow
+  Vec2 view, section;                   ///< their middles, from the upper left corner of a state
 
   Layout(const Strip& strip, double width) {
     const Extent &seen = strip.seen_, &cut = strip.cut_;
@@ -91,6 +94,11 @@ struct Strip::Layout {
     const double view_height = scale * seen.height() + 2 * rim;
     const double section_height = sections ? scale * cut.height() + 2 * rim : 0;
     top = strip.heading_.height() + label_height;
+    double widest = 0;
+    for (const Surface& state : strip.states_)
+      widest = std::max(widest,
+                        text_width(time_label(state.time, state.units), {type_size, style::ink}));
+    type_size *= std::min(1.0, cell / widest);
     if (beside) {
       rows = std::max(view_height, section_height);
       const double half = 0.5 * scale * across;
@@ -105,8 +113,6 @@ struct Strip::Layout {
 
   double height() const { return top + rows + footer_height; }
 };
-
-std::string time_label(double time) { return "*t* = " + number(time); }
 
 Strip::Strip(Heading heading, std::vector<Surface> states, const View& view, double tallest)
     : heading_(std::move(heading)), states_(std::move(states)), view_(view), tallest_(tallest),
@@ -126,9 +132,9 @@ Strip::Strip(Heading heading, std::vector<Surface> states, const View& view, dou
 }
 
 void draw_keys(Sheet& sheet, const Box& place, double scale, const Palette* palette,
-               Quantity quantity, bool phases, double longest) {
+               Quantity quantity, const Units& units, bool phases, double longest) {
   if (palette)
-    add_color_bar(sheet, {place.left, place.top}, *palette, quantity);
+    add_color_bar(sheet, {place.left, place.top}, *palette, quantity, units);
   else if (phases)
     add_legend(sheet, {place.left, place.top});
   add_scale_bar(sheet, {place.right(), place.top}, scale, longest / scale);
@@ -146,8 +152,8 @@ bool Strip::has_phases() const { return std::ranges::any_of(states_, &Surface::h
 void Strip::draw_state(Sheet& sheet, const Layout& layout, std::size_t n, const Box& place,
                        Camera camera) const {
   const double left = place.left + double(n) * (layout.cell + gap), top = place.top + layout.top;
-  sheet.text({left + layout.cell / 2, top - 0.5 * style::type_size}, time_label(states_[n].time),
-             {style::small_type, style::ink, 0.5});
+  sheet.text({left + layout.cell / 2, top - 0.5 * style::type_size},
+             time_label(states_[n].time, units()), {layout.type_size, style::ink, 0.5});
   const int columns = int(std::ceil((layout.scale * seen_.width() + 2 * rim) * camera.pixels));
   const int rows = int(std::ceil((layout.scale * seen_.height() + 2 * rim) * camera.pixels));
   const double width = columns / camera.pixels, height = rows / camera.pixels;
@@ -174,7 +180,7 @@ void Strip::draw_footer(Sheet& sheet, const Layout& layout, const Box& place) co
   if (view_.section && view_.azimuth == 0) add_axes(sheet, {place.left + 10, base});
   const double indent = view_.section ? 160 : 0, longest = std::min(place.width, 1.3 * layout.cell);
   draw_keys(sheet, {place.left + indent, base, place.width - indent, 0}, layout.scale,
-            palette_ ? &*palette_ : nullptr, view_.color, has_phases(), 0.33 * longest);
+            palette_ ? &*palette_ : nullptr, view_.color, units(), has_phases(), 0.33 * longest);
 }
 
 void Strip::draw(Sheet& sheet, const Box& place, Camera camera) const {

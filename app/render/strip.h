@@ -31,6 +31,7 @@ private:
                   Camera camera) const;
   void draw_footer(Sheet& sheet, const Layout& layout, const Box& place) const;
   bool has_phases() const;
+  const Units& units() const { return states_.front().units; }
   bool sections_stand_beside() const;
 
   Heading heading_;
@@ -43,12 +44,9 @@ private:
   std::optional<Palette> palette_;
 };
 
-/// "*t* = 1.6×10⁻³"
-std::string time_label(double time);
-
 /// Along the upper side of a box: what colours mean, if anything, and at its right end a scale bar,
 /// not longer than `longest`. `scale`: units of the sheet per length of the box.
 void draw_keys(Sheet& sheet, const Box& place, double scale, const Palette* palette,
-               Quantity quantity, bool phases, double longest);
+               Quantity quantity, const Units& units, bool phases, double longest);
 
 } // namespace lamella::render

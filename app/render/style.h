@@ -1,6 +1,8 @@
 #pragma once
 #include "render/picture.h"
 
+#include <array>
+
 /// The look that all pictures share; lengths in units of a page that is 2100 units wide.
 namespace lamella::render::style {
 
@@ -18,10 +20,14 @@ constexpr Hue membrane{{236, 122, 100}, {190, 62, 44}};
 /// Of two phases. They differ in lightness too, and in no eye look alike.
 constexpr Hue Ld{{226, 92, 80}, {190, 62, 44}}, Lo{{96, 152, 214}, {38, 98, 168}};
 
+/// Of curves on white, no two alike.
+constexpr Color ochre{176, 122, 0}, teal{0, 128, 108}, violet{130, 90, 160}, sky{70, 170, 215},
+    pink{222, 92, 150}, brown{110, 58, 20};
+inline constexpr std::array curves{membrane.line, Lo.line, teal, ochre, violet, sky, pink, brown};
+
 /// Of energies other than those of a phase.
-constexpr Color line_energy{176, 122, 0}, gaussian_energy{0, 128, 108},
-    stretch_energy{130, 90, 160}, pressure_energy{38, 98, 168}, area_difference_energy{0, 128, 108},
-    film_energy{176, 122, 0};
+constexpr Color line_energy = ochre, gaussian_energy = teal, stretch_energy = violet,
+                pressure_energy = sky, area_difference_energy = pink, film_energy = brown;
 
 constexpr double type_size = 50; ///< 9 pt at 400 pixels per inch
 constexpr double small_type = 44;

@@ -83,6 +83,14 @@ Surface extract(vtkImageData& image, const Frame& frame, bool with_curvatures) {
   return surface;
 }
 
+/// In the unit of pictures.
+void scale(vtkPolyData& mesh, const std::string& name, const Units& units) {
+  vtkDataArray* values = mesh.GetPointData()->GetArray(name.c_str());
+  const Notation& notation = notation_of(name);
+  for (vtkIdType n = 0; n < values->GetNumberOfTuples(); ++n)
+    values->SetComponent(n, 0, notation.value(values->GetComponent(n, 0), units));
+}
+
 /// The velocity's component along the normal, in place of the vector.
 void project_velocity(vtkPolyData& mesh) {
   vtkDataArray* vectors = mesh.GetPointData()->GetArray("velocity");
@@ -113,7 +121,11 @@ Surface extract_surface(const Frame& frame) {
 }
 
 Surface extract_surface(const State& state, Quantity quantity) {
-  if (quantity == Quantity::phase) return extract_surface(state.frame);
+  if (quantity == Quantity::phase) {
+    Surface surface = extract_surface(state.frame);
+    surface.units = Units(state.scene);
+    return surface;
+  }
   vtkNew<vtkImageData> image;
   fill_state(*image, state.frame, state.measures, state.scene);
   Surface surface = extract(*image, state.frame, quantity != Quantity::c);
@@ -123,6 +135,8 @@ Surface extract_surface(const State& state, Quantity quantity) {
         "colours of " + name +
         " need a field that the run does not have; c needs [stretch] modulus above 0");
   if (quantity == Quantity::velocity) project_velocity(*surface.mesh);
+  surface.units = Units(state.scene);
+  scale(*surface.mesh, name, surface.units);
   return surface;
 }
 

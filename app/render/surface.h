@@ -1,6 +1,7 @@
 #pragma once
 #include "dynamics/measures.h"
 #include "render/phases.h"
+#include "render/units.h"
 #include "scene/scene.h"
 #include "store/frame.h"
 
@@ -21,12 +22,13 @@ constexpr Quantity quantities[]{Quantity::phase,          Quantity::K_M, Quantit
 
 /// The membrane of a frame, ready to draw or to cut.
 struct Surface {
-  double time = 0;
+  double time = 0; ///< of the scene
   /// From vtkMembraneSurface, with more point data: "occlusion", from 0 (open) to 1 (hidden in a
   /// dimple, a neck or between two membranes). With phases the scalars are psi.
   vtkSmartPointer<vtkPolyData> mesh;
   std::vector<Patch> parts;              ///< the mesh phase by phase
   vtkSmartPointer<vtkPolyData> boundary; ///< from vtkPhaseBoundary; null with one phase
+  Units units{};                         ///< of its run
 
   bool has_phases() const { return boundary != nullptr; }
 };
@@ -41,8 +43,9 @@ struct State {
 /// The surface alone suits Quantity::phase. Throws RenderError when phi is nowhere negative.
 Surface extract_surface(const Frame& frame);
 
-/// With the array that a quantity needs, named after it and of one component; the velocity is that
-/// along the normal. Throws RenderError too where the state does not have it.
+/// With the array that a quantity needs, named after it and of one component, in the unit of
+/// pictures; the velocity is that along the normal. Throws RenderError too where the state does not
+/// have it.
 Surface extract_surface(const State& state, Quantity quantity);
 
 } // namespace lamella::render

@@ -1,6 +1,6 @@
 #include "render/tradeoff_plot.h"
 
-#include <fmt/format.h>
+#include "render/labels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +18,6 @@ Color shade(std::size_t n, std::size_t count) {
     return static_cast<unsigned char>(std::lerp(pale, dark, s));
   };
   return {mix(244, 96), mix(166, 20), mix(120, 44)};
-}
-
-std::string grid_label(const std::array<int, 3>& nodes) {
-  const auto& [x, y, z] = nodes;
-  return x == y && y == z ? fmt::format("{}³", x) : fmt::format("{}×{}×{}", x, y, z);
 }
 
 /// Half a decade at least, with room for names on the left.

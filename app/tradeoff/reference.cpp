@@ -115,6 +115,14 @@ Reference::Reference(std::string_view table, std::string source) : source_(std::
   if (states_.empty()) throw SceneError(source_ + ": the reference has no rows");
 }
 
+double ReferenceState::value(std::string_view column) const {
+  if (column == "int_KM2") return int_KM2;
+  if (column == "P") return P;
+  if (column == "sigma") return sigma;
+  if (column != "energy") return unknown;
+  return std::isnan(energy) ? int_KM2 / 2 : energy;
+}
+
 Reference::Reference(std::span<const Measures> history, std::string source)
     : source_(std::move(source)) {
   for (const Measures& m : history) states_.push_back({m.time, m.energy, m.int_KM2, m.P, m.sigma});

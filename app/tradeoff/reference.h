@@ -18,6 +18,9 @@ struct ReferenceState {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double time = std::numeric_limits<double>::infinity(); ///< infinite: at rest
   double energy = unknown, int_KM2 = unknown, P = unknown, sigma = unknown;
+
+  /// Of a column of history.csv, also of an energy that is bending alone.
+  double value(std::string_view column) const;
 };
 
 /// An exact or much finer solution that runs are compared with: states over time, or one at rest.

@@ -10,16 +10,8 @@ namespace lamella {
 
 namespace {
 
-/// Exponents of the two units that are free.
-struct Dimension {
-  int length = 0, energy = 0;
-};
-
 Dimension of_word(std::string_view word) {
-  if (word == "length") return {1, 0};
-  if (word == "energy") return {0, 1};
-  if (word == "time") return {4, -1};
-  return {};
+  return {word == "length", word == "energy", word == "time"};
 }
 
 /// Of a product such as "energy time" or "length³".
@@ -38,18 +30,23 @@ Dimension of_product(std::string_view product) {
     const Dimension d = of_word(word);
     sum.length += power * d.length;
     sum.energy += power * d.energy;
+    sum.time += power * d.time;
   }
   return sum;
 }
 
 } // namespace
 
-double UnitChange::factor(std::string_view unit) const {
+Dimension dimension_of(std::string_view unit) {
   const std::size_t slash = unit.find('/');
   const Dimension above = of_product(unit.substr(0, slash));
   const Dimension below = slash == unit.npos ? Dimension{} : of_product(unit.substr(slash + 1));
-  return std::pow(length, above.length - below.length) *
-         std::pow(energy, above.energy - below.energy);
+  return {above.length - below.length, above.energy - below.energy, above.time - below.time};
+}
+
+double UnitChange::factor(std::string_view unit) const {
+  const Dimension d = dimension_of(unit);
+  return std::pow(length, d.length + 4 * d.time) * std::pow(energy, d.energy - d.time);
 }
 
 Scene in_units(Scene scene, const UnitChange& change) {

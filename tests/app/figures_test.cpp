@@ -3,7 +3,10 @@
 #include "figures/outcome.h"
 #include "figures/study.h"
 #include "scene/builtin.h"
+#include "scene/scene_toml.h"
+#include "scene/units.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -51,6 +54,15 @@ TEST(FigureFile, SaysWhatIsWrongAndWhereAndWhatIsRight) {
   EXPECT_THAT(error_of("[[panel]]\nkind = \"table\"\nscene = \"fig9\"\nvary = \"grid.nodes\"\n"
                        "values = [48, 64]\nquantities = [\"P\"]\npaper = [[1]]\n"),
               HasSubstr("[panel] paper"));
+  const std::string plot = "[[panel]]\nkind = \"plot\"\nscenes = [\"fig9\", \"fig14\"]\n";
+  EXPECT_THAT(error_of(plot + "y = \"presure\"\n"), HasSubstr("columns of history.csv"));
+  EXPECT_THAT(error_of(plot + "y = [\"energy\", \"P\"]\n"), HasSubstr("columns of one unit"));
+  EXPECT_THAT(error_of(plot + "y = \"terms\"\n"), HasSubstr("one scene, with y = \"terms\""));
+  EXPECT_THAT(error_of(plot + "y = \"P\"\nlabel = \"P / Pa\"\n"), HasSubstr("without its unit"));
+  EXPECT_THAT(error_of(plot + "y = \"P\"\nx = \"v\"\nexact = true\n"), HasSubstr("x is t"));
+  EXPECT_THAT(error_of(plot + "y = [\"energy\", \"line_energy\", \"bending_energy\", "
+                              "\"bending_Ld\", \"bending_Lo\"]\n"),
+              HasSubstr("at most 8 curves"));
   EXPECT_THAT(error_of("not TOML"), HasSubstr("mine.toml:1: this is not TOML"));
 }
 
@@ -161,9 +173,160 @@ TEST(StudyOfGrids, BecomesATable) {
   study.paper = {{NAN}, {-101.9}};
   const FigureTable table =
       table_of(study, {{-106.2}, {{-106.0}, {-106.15}}, {0.04, 0.03}, {"48³", "64³"}});
-  EXPECT_EQ(table.csv(), "grid,pressure P,error,paper's\n48³,-106.0000,+0.2000,\n"
+  EXPECT_EQ(table.csv(), "grid,pressure P / (κ/L³),error / (κ/L³),paper's / (κ/L³)\n"
+                         "48³,-106.0000,+0.2000,\n"
                          "64³,-106.1500,+0.0500,+4.300\nexact,-106.2000,,\n");
+  EXPECT_THAT(table.cells().at(1), ElementsAre("", "*κ*/*L*³", "*κ*/*L*³", "*κ*/*L*³"));
   EXPECT_THAT(table.markdown(), HasSubstr("| 64³ | −106.1500 | +0.0500 | +4.300 |"));
+}
+
+// ---------------------------------------------------------------------------------------- units
+
+using render::StoredStates;
+
+/// The same physics in several units of energy and length.
+class Units : public Cli {
+protected:
+  /// The folder of a run in other units, of a few steps.
+  std::string run(const std::string& scene, const UnitChange& change) const {
+    const std::string name = fmt::format("run{}", names_in(work()).size());
+    write(work() / (name + ".toml"), to_toml(in_units(parse_scene(scene, "test"), change)));
+    const Result result = call({"run", name + ".toml", "--no-pictures", "-o", name});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return (work() / name).string();
+  }
+
+  static RunFinder finder() {
+    return [](const RunSpec& run) { return fs::path(run.scene); };
+  }
+
+  static constexpr const char* one_phase = R"(
+[grid]
+nodes = 32
+[shape]
+kind = "oblate"
+semi_axis = 0.7
+reduced_volume = 0.8
+[membrane]
+spontaneous_curvature = -2
+[volume]
+constraint = "free"
+pressure = -50
+[area_difference]
+multiplier = 3
+[stretch]
+modulus = 100
+[contact]
+disjoining_pressure = 10
+disjoining_range = 0.1
+[run]
+end_time = 5e-6
+[output]
+frames = 3
+)";
+  static constexpr const char* two_phases = R"(
+[grid]
+nodes = 40
+half_width = 1.5
+[shape]
+kind = "sphere"
+radius = 0.98
+[domains]
+kind = "cap"
+[ld]
+spontaneous_curvature = -1
+[lo]
+bending_modulus = 2
+gaussian_modulus = -1
+[line]
+tension = 10
+geodesic_modulus = 0.5
+torsion_modulus = 0.5
+normal_modulus = 0.5
+[stretch]
+modulus = 200
+[volume]
+constraint = "ramped"
+targets = 0.95
+rate = 100
+[run]
+end_time = 5e-6
+[output]
+frames = 3
+)";
+};
+
+/// Numbers on pictures differ by the unit of length alone, which is the scene's.
+void expect_same(const StoredStates& a, const StoredStates& b, double length) {
+  ASSERT_EQ(a.history().size(), b.history().size());
+  EXPECT_GT(a.history().size(), 5u);
+  Measures begin = a.history().front();
+  for (const Field& field : row_of(begin)) {
+    const std::string column(field.column);
+    if (column.ends_with("_rel")) continue; // rounding
+    const Dimension unit = dimension_of(field.unit);
+    const double factor = std::pow(length, -(unit.length + 4 * unit.time));
+    double largest = 0;
+    for (const Measures& m : a.history()) largest = std::max(largest, std::abs(a.value(m, column)));
+    for (std::size_t n = 0; n < a.history().size(); ++n)
+      EXPECT_NEAR(b.value(b.history()[n], column) * factor, a.value(a.history()[n], column),
+                  1e-6 * largest)
+          << column;
+  }
+}
+
+TEST_F(Units, OfAllColumnsAreThoseThatTheSamePhysicsHas) {
+  for (const char* scene : {one_phase, two_phases}) {
+    const StoredStates a(run(scene, {})), b(run(scene, {.energy = 25}));
+    expect_same(a, b, 1);
+  }
+  const StoredStates a(run(one_phase, {})), b(run(one_phase, {.length = 5, .energy = 25}));
+  expect_same(a, b, 5);
+}
+
+TEST_F(Units, OfPlotsTablesTimesAndColoursAreThoseBesideThem) {
+  const std::string one = run(two_phases, {}), other = run(two_phases, {.energy = 25});
+  const auto plot = [&](const std::string& run, const std::vector<std::string>& y) {
+    PlotPanel panel;
+    panel.runs = {{run, {}}};
+    panel.y = y;
+    return plot_of(panel, finder());
+  };
+  for (const auto& y : {std::vector<std::string>{"terms"}, {"sigma_Ld", "sigma_Lo"}, {"P"}}) {
+    const render::Plot a = plot(one, y), b = plot(other, y);
+    EXPECT_THAT(a.x.title, HasSubstr("*κ*_{Ld}"));
+    EXPECT_EQ(a.x.title, b.x.title);
+    EXPECT_EQ(a.y.title, b.y.title);
+    ASSERT_EQ(a.series.size(), b.series.size());
+    for (std::size_t s = 0; s < a.series.size(); ++s)
+      for (std::size_t n = 0; n < a.series[s].points.size(); ++n)
+        for (const int i : {0, 1})
+          EXPECT_NEAR(a.series[s].points[n][i], b.series[s].points[n][i],
+                      1e-6 * std::abs(a.series[s].points[n][i]))
+              << y[0];
+  }
+  const auto table = [&](const std::string& run) {
+    Study study;
+    study.run = {run, {}};
+    study.vary = "grid.nodes";
+    study.values = {40};
+    study.quantities = {"energy", "P", "line_radius"};
+    study.exact = {100, 50, 1};
+    return table_of(study, evaluate(study, finder())).csv();
+  };
+  EXPECT_THAT(table(one), AllOf(HasSubstr("grid,energy E / κLd,"), HasSubstr("\n40³,")));
+  EXPECT_EQ(table(one), table(other));
+  const auto surface = [&](const std::string& run, render::Quantity quantity) {
+    const StoredStates states(run);
+    return extract_surface(states.at(states.frames().back().time), quantity);
+  };
+  for (const render::Quantity quantity :
+       {render::Quantity::velocity, render::Quantity::energy_density, render::Quantity::c}) {
+    const render::Surface a = surface(one, quantity), b = surface(other, quantity);
+    EXPECT_EQ(time_label(a.time, a.units), time_label(b.time, b.units));
+    EXPECT_NEAR(range_of(quantity, {a}).high, range_of(quantity, {b}).high,
+                1e-6 * range_of(quantity, {a}).high);
+  }
 }
 
 // ---------------------------------------------------------------------------------- the command

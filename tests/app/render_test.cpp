@@ -10,6 +10,7 @@
 #include "render/style.h"
 #include "render/surface.h"
 #include "render/tradeoff_plot.h"
+#include "render/units.h"
 #include "scene/scene_toml.h"
 
 #include <gmock/gmock.h>
@@ -329,7 +330,7 @@ TEST_F(Render, draws_sections_in_the_colours_of_phases) {
 }
 
 TEST_F(Render, plots_the_energy_from_end_to_end) {
-  const Picture plot = picture_of(energy_plot(falling_energy(200, 1.6e-3), 1));
+  const Picture plot = picture_of(energy_plot(falling_energy(200, 1.6e-3), Units()));
   EXPECT_EQ(plot.height, 525);
   std::vector<int> columns; // that the curve runs through
   for (int x = 0; x < plot.width; ++x)
@@ -346,7 +347,7 @@ TEST_F(Render, plots_the_energy_from_end_to_end) {
 
 TEST_F(Render, plots_the_terms_of_the_energy_that_are_there) {
   const auto shows = [&](const std::vector<Measures>& history) {
-    const Picture plot = picture_of(energy_plot(history, 1));
+    const Picture plot = picture_of(energy_plot(history, Units()));
     std::vector<bool> there;
     for (const Color& color : {style::membrane.line, style::Lo.line, style::line_energy,
                                style::gaussian_energy, style::stretch_energy})
@@ -364,13 +365,74 @@ TEST_F(Render, plots_the_terms_of_the_energy_that_are_there) {
   EXPECT_THAT(shows(all), ElementsAre(true, true, true, true, true));
 }
 
+TEST(EnergyPlot, has_a_colour_for_each_term) {
+  std::vector<Measures> history = falling_energy(5, 1);
+  history = with_phases(
+      history,
+      {.bending_energy_Ld = 1, .bending_energy_Lo = 2, .gaussian_energy = 3, .line_energy = 4});
+  for (Measures& row : history) {
+    row.stretch = {5, 1, 1};
+    row.pressure_energy = 6;
+    row.area_difference_energy = 7;
+    row.film_energy = 8;
+  }
+  const std::vector<Series> series = energy_plot(history, Units()).series;
+  EXPECT_EQ(series.size(), 9u) << "all, and the whole";
+  for (const Series& a : series)
+    for (const Series& b : series)
+      if (&a != &b) EXPECT_NE(a.color, b.color) << a.name << " and " << b.name;
+}
+
+TEST(EnergyPlot, is_in_the_units_beside_its_axes) {
+  const std::vector<Measures> history = falling_energy(5, 2e-3);
+  Scene scene;
+  scene.membrane.bending_modulus = 25;
+  const Plot plot = energy_plot(history, Units(scene));
+  EXPECT_EQ(plot.x.title, "time *t* / (*ζL*⁴/*κ*)");
+  EXPECT_EQ(plot.y.title, "energy *E* / *κ*");
+  const auto& [t, E] = plot.series[0].points.back();
+  EXPECT_DOUBLE_EQ(t, 2e-3 * 25);
+  EXPECT_DOUBLE_EQ(E, history.back().energy / 25);
+}
+
+TEST(Units, are_written_beside_what_they_measure) {
+  const auto title = [](const char* name) { return notation_of(name).title(Units()); };
+  EXPECT_EQ(title("t"), "time *t* / (*ζL*⁴/*κ*)");
+  EXPECT_EQ(title("energy"), "energy *E* / *κ*");
+  EXPECT_EQ(title("int_KM2"), "∫ *K*_{M}² d*A*");
+  EXPECT_EQ(title("P"), "pressure *P* / (*κ*/*L*³)");
+  EXPECT_EQ(title("K_multiplier"), "multiplier *q* / (*κ*/*L*)");
+  EXPECT_EQ(title("line_radius"), "radius of the boundary / *L*");
+  EXPECT_EQ(title("max_speed"), "largest speed / (*κ*/*ζL*³)");
+  EXPECT_EQ(title("K_M"), "*K*_{M} / *L*⁻¹");
+  EXPECT_EQ(title("K"), "*K* / *L*⁻²");
+}
+
+TEST(Units, name_the_phase_whose_modulus_they_take) {
+  Scene scene;
+  scene.membrane.bending_modulus = 3;
+  EXPECT_EQ(Units(scene).kappa, 3);
+  scene.domains.kind = DomainsKind::cap;
+  scene.ld.bending_modulus = scene.lo.bending_modulus = 25;
+  EXPECT_EQ(Units(scene).kappa, 25);
+  EXPECT_EQ(time_label(2e-3, Units(scene)), "*t* = 0.05 *ζL*⁴/*κ*");
+  scene.lo.bending_modulus = 125;
+  EXPECT_EQ(time_label(2e-3, Units(scene)), "*t* = 0.05 *ζL*⁴/*κ*_{Ld}");
+  scene.lo.bending_modulus = 5;
+  EXPECT_EQ(Units(scene).kappa, 5);
+  EXPECT_EQ(notation_of("max_line_speed").unit(Units(scene)), "*κ*_{Lo}/*ζL*³");
+  EXPECT_EQ(common(Units(scene), Units()).kappa_symbol, "*κ*") << "that of each";
+}
+
 TEST_F(Render, plots_one_row_and_steady_energies_but_not_nothing) {
   std::vector<Measures> steady = falling_energy(20, 1);
   for (Measures& row : steady) row.energy = 8 * std::numbers::pi;
-  EXPECT_NO_THROW(picture_of(energy_plot(steady, 1)));
-  EXPECT_NO_THROW(picture_of(energy_plot(falling_energy(20, 1.0), 1e-20)));
-  EXPECT_NO_THROW(picture_of(energy_plot({Measures{}}, 1)));
-  EXPECT_THAT(error_of([&] { energy_plot({}, 1); }), HasSubstr("nothing to plot"));
+  Units tiny;
+  tiny.kappa = 1e-20;
+  EXPECT_NO_THROW(picture_of(energy_plot(steady, Units())));
+  EXPECT_NO_THROW(picture_of(energy_plot(falling_energy(20, 1.0), tiny)));
+  EXPECT_NO_THROW(picture_of(energy_plot({Measures{}}, Units())));
+  EXPECT_THAT(error_of([&] { energy_plot({}, Units()); }), HasSubstr("nothing to plot"));
 }
 
 TEST_F(Render, plots_error_against_time) {
@@ -428,7 +490,7 @@ TEST_F(Render, leaves_the_background_out_where_asked) {
 }
 
 TEST_F(Render, keeps_letters_and_lines_in_vectors) {
-  const Sheet sheet = sheet_of(energy_plot(falling_energy(50, 1e-3), 1));
+  const Sheet sheet = sheet_of(energy_plot(falling_energy(50, 1e-3), Units()));
   write_sheet(folder_ / "plot.svg", sheet);
   std::ifstream in(folder_ / "plot.svg");
   const std::string svg{std::istreambuf_iterator<char>(in), {}};
@@ -458,6 +520,18 @@ TEST_F(Render, colours_a_sphere_by_its_curvature) {
   EXPECT_TRUE(is_red(palette.at(4)));
   EXPECT_THAT(error_of([&] { extract_surface(state, Quantity::c); }),
               HasSubstr("[stretch] modulus"));
+}
+
+TEST_F(Render, colours_in_the_unit_of_the_bar) {
+  State soft{sphere(0.5)}, stiff = soft;
+  stiff.scene.membrane.bending_modulus = 25;
+  stiff.measures.sigma = 25 * (soft.measures.sigma = 3);
+  for (const Quantity quantity : {Quantity::K_M, Quantity::energy_density, Quantity::velocity}) {
+    const ValueRange a = range_of(quantity, {extract_surface(soft, quantity)});
+    const ValueRange b = range_of(quantity, {extract_surface(stiff, quantity)});
+    EXPECT_NEAR(b.high, a.high, 1e-9 * std::abs(a.high)) << to_string(quantity);
+    EXPECT_NEAR(b.low, a.low, 1e-9 * std::abs(a.low)) << to_string(quantity);
+  }
 }
 
 TEST(Labels, numbers_read_as_in_print) {
