@@ -35,7 +35,7 @@ std::string grid_text(const Grid& grid) {
 std::string fields_text(const Frame& frame) {
   std::string text = "phi (the membrane)";
   if (!frame.psi.empty()) text += ", psi (phases)";
-  if (!frame.c.empty()) text += ", c (area per lipid)";
+  if (!frame.c.empty()) text += ", c (lipid per area)";
   return text;
 }
 

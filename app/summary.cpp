@@ -93,7 +93,7 @@ std::string table(const Scene& scene, const Measures& start, const Measures& end
   text += row("largest speed", "max |v_N|", start.max_speed, end.max_speed);
   if (start.phases) text += boundary_rows(*start.phases, *end.phases);
   if (start.stretch) {
-    text += row("area per lipid", "least c", start.stretch->least, end.stretch->least);
+    text += row("lipid per area", "least c", start.stretch->least, end.stretch->least);
     text += row("", "greatest c", start.stretch->greatest, end.stretch->greatest);
   }
   text += row("components", "", start.components, end.components);

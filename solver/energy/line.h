@@ -20,9 +20,9 @@ struct LineEnergy {
     return boundary.integral([this](const CurveGeometry& c) { return density(c); });
   }
 
-  /// Force per length on Gamma, g of Eq. 89 (corrected, see errata), at all points of the boundary:
-  /// dE = -oint g.W dl + oint couple d_n w dl for a displacement W of Gamma, w = N.W on the
-  /// membrane.
+  /// Force per length on Gamma, g of Eq. 89 (corrected, see docs/theory.md), at all points of the
+  /// boundary: dE = -oint g.W dl + oint couple d_n w dl for a displacement W of Gamma, w = N.W on
+  /// the membrane.
   std::vector<Eigen::Vector3d> forces(const PhaseBoundary& boundary) const {
     const auto dkg = boundary.derivative([](const CurveGeometry& c) { return c.kg; });
     const auto dkn = boundary.derivative([](const CurveGeometry& c) { return c.kn; });

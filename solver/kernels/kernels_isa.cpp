@@ -227,9 +227,9 @@ void curvatures(const SplineView& s, std::size_t n, ConstPoints p, const Surface
   }
 }
 
-/// Lap_s K_M with K_M = -div N of all level surfaces around, Eq. 58 (corrected, see errata):
-/// Lap_s F = Lap F + K_M N.grad F - N.Hess(F).N. No property of a distance function is used.
-/// `gradient` receives that of K_M in space.
+/// Lap_s K_M with K_M = -div N of all level surfaces around, Eq. 58 (corrected, see
+/// docs/theory.md): Lap_s F = Lap F + K_M N.grad F - N.Hess(F).N. No property of a distance
+/// function is used. `gradient` receives that of K_M in space.
 LAMELLA_INLINE V8 laplacian_of_KM(const V8* d, const Curvatures& c, V8* gradient) {
   constexpr const auto& s = derivative_index<4>.slot;
   auto derivative = [&](int i, int j, int k) {

@@ -24,7 +24,7 @@ constexpr double least_radius_of_curvature = 0.4;
 constexpr double largest_curvature_times_spacing = 1;
 constexpr double least_wrinkling_length = 2;
 constexpr double least_wavelength = 4;                  // of a perturbation
-constexpr double least_rim_radius = 3.5, least_gap = 4; // of domains: phases blend over 4 spacings
+constexpr double least_rim_radius = 3.5, least_gap = 4; // of domains
 constexpr double rounding = 1e-9;
 
 class Rules {
