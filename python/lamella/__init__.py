@@ -11,8 +11,8 @@ those of `vtkmodules`; help(lamella.vtkVesicleDynamics) has their arrays, shapes
     arrays(data)      the arrays of any VTK data set, as numpy views
     update(algorithm) runs an algorithm; what it reports is raised as Error
 
-Lengths in box units, drag coefficient 1, so time is in length^4 / bending modulus. K_M = -2 on the
-unit sphere.
+Lengths and energies are in units of your choice; the drag coefficient is 1, so time is in length^4 / energy. K_M = -2
+on the unit sphere.
 """
 
 import vtkmodules.vtkCommonExecutionModel  # what the wrapped classes are made from
