@@ -29,7 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// In arbitrary units; two phases cost ten times as much, as measured over the built-in scenes.
-double expected_cost(const Scene& scene) {
+double cost_of(const Scene& scene) {
   return double(scene.grid().size()) * std::pow(scene.numerics.tolerance, -0.35) *
          (scene.has_phases() ? 10 : 1);
 }
@@ -91,8 +91,8 @@ public:
   Queue(std::vector<Scene> scenes, const RunStore& store, int cores)
       : waiting_(std::move(scenes)), store_(store), cores_(cores), count_(waiting_.size()),
         terminal_(isatty(STDERR_FILENO)) {
-    std::ranges::sort(waiting_, std::greater<>(), expected_cost);
-    for (const Scene& scene : waiting_) whole_cost_ += expected_cost(scene);
+    std::ranges::sort(waiting_, std::greater<>(), cost_of);
+    for (const Scene& scene : waiting_) whole_cost_ += cost_of(scene);
   }
 
   std::vector<FailedRun> run() {
@@ -153,7 +153,7 @@ private:
     }
     if (!good && !interrupt_requested())
       failed_.push_back({job.scene.name, reason(*job.process, job.order.folder)});
-    if (good) done_cost_ += expected_cost(job.scene);
+    if (good) done_cost_ += cost_of(job.scene);
     clear_line();
     if (!interrupt_requested())
       say(fmt::format("{} of {}: {} {} {}\n", ++done_, count_, job.scene.name,
@@ -171,7 +171,7 @@ private:
     double cost = done_cost_;
     for (const auto& job : jobs_) {
       const double share = job->share();
-      cost += share * expected_cost(job->scene);
+      cost += share * cost_of(job->scene);
       shares.push_back(fmt::format("{} {:.0f} %", job->scene.name, 100 * share));
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();

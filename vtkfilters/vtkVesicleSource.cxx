@@ -17,7 +17,8 @@ vtkStandardNewMacro(vtkVesicleSource);
 
 namespace
 {
-constexpr std::array<std::string_view, 4> Sections = { "grid", "shape", "perturbation", "domains" };
+constexpr std::array<std::string_view, 4> SceneSections = { "grid", "shape", "perturbation",
+  "domains" };
 }
 
 lamellaVectorProperty(vtkVesicleSource, Nodes, int, nodes);
@@ -100,5 +101,5 @@ void vtkVesicleSource::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   std::ostringstream margin;
   margin << indent;
-  lamella::print_sections(os, margin.str(), *this->Scene, Sections);
+  lamella::print_sections(os, margin.str(), *this->Scene, SceneSections);
 }

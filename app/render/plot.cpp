@@ -1,6 +1,7 @@
 #include "render/plot.h"
 
 #include "render/labels.h"
+#include "render/qt_color.h"
 #include "render/render.h"
 
 #include <qcustomplot.h>
@@ -114,8 +115,6 @@ std::string title_of(const Axis& axis, int exponent) {
   if (unit.starts_with('(')) unit = unit.substr(1, unit.size() - 2);
   return axis.title.substr(0, slash) + " / (" + power_of_ten(exponent) + " " + unit + ")";
 }
-
-QColor qt(const Color& c) { return {c.r, c.g, c.b}; }
 
 void set_up(QCPAxis& axis, const Axis& wanted, const Range& range, const Ticks& ticks) {
   if (wanted.logarithmic) axis.setScaleType(QCPAxis::stLogarithmic);

@@ -16,7 +16,7 @@
 namespace lamella::render {
 namespace {
 
-constexpr double page_width = 2100; ///< of figure.png, in units of a sheet
+constexpr double figure_width = 2100; ///< of figure.png, in units of a sheet
 
 } // namespace
 
@@ -62,13 +62,13 @@ std::vector<std::filesystem::path> draw_run(const StoredStates& run,
   const std::vector<double> times =
       options.times.empty() ? std::vector{run.frames().front().time, run.frames().back().time}
                             : options.times;
-  Page page(page_width);
+  Page page(figure_width);
   page.add(std::make_unique<Strip>(Heading{}, surfaces_at(run, times, options.view.color),
                                    options.view));
   const std::string kind = "." + options.format;
   const std::vector<std::filesystem::path> files{folder / ("figure" + kind),
                                                  folder / ("energy" + kind)};
-  const double pixels = options.width / page_width, dpi = pixels * units_per_inch;
+  const double pixels = options.width / figure_width, dpi = pixels * units_per_inch;
   write_sheet(files[0], page.draw({studio, pixels}), dpi, options.background);
   write_sheet(files[1], sheet_of(energy_plot(run.history(), run.units())), dpi, options.background);
   return files;

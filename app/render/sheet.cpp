@@ -1,5 +1,6 @@
 #include "render/sheet.h"
 
+#include "render/qt_color.h"
 #include "render/qt_session.h"
 
 #include <qcustomplot.h>
@@ -8,8 +9,6 @@
 
 namespace lamella::render {
 namespace {
-
-QColor qt(const Color& c) { return {c.r, c.g, c.b}; }
 
 QFont font(Face face, double size) {
   QFont font("DejaVu Sans");

@@ -1,6 +1,6 @@
 #include "dynamics/constraints.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -196,8 +196,9 @@ bool Constraints::is_delicate(const SurfaceIntegrals& integrals) const {
   const Eigen::Vector4d scale = integrals.gram.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix4d correlation = scale.asDiagonal() * integrals.gram * scale.asDiagonal();
   const Eigen::MatrixXd held = correlation(indices_, indices_);
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(held, Eigen::EigenvaluesOnly)
-             .eigenvalues()[0] < little;
+  const Eigen::MatrixXd shifted =
+      held - little * Eigen::MatrixXd::Identity(held.rows(), held.cols());
+  return shifted.llt().info() != Eigen::Success; // not positive definite
 }
 
 double Constraints::drift(const Quantities& now, double time) const {

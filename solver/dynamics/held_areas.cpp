@@ -15,9 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double least_domain = 8;     // squared spacings: smaller ones hold nothing
-constexpr double beside = 1.2;         // spacings from the boundary: there a part is surely met
-constexpr double longest_shift = 0.02; // spacings a step
+constexpr double least_holding_domain = 8; // squared spacings: smaller ones hold nothing
+constexpr double beside = 1.2;             // spacings from the boundary: there a part is surely met
+constexpr double longest_shift = 0.02;     // spacings a step
 constexpr std::size_t most_parts = 100;
 
 double squared_distance(const Vec3& a, const Vec3& b) {
@@ -54,7 +54,7 @@ void HeldAreas::find(const NarrowBand& band, const DomainMap& map, const PhaseBo
 
 /// All domains but specks and the largest of Lo.
 void HeldAreas::find_domains(const NarrowBand& band, const DomainMap& map) {
-  const double least = least_domain * band.grid().spacing * band.grid().spacing;
+  const double least = least_holding_domain * band.grid().spacing * band.grid().spacing;
   const auto rest = std::ranges::max_element(map.domains, {},
                                              [](const Domain& d) { return d.is_Ld ? -1 : d.area; });
   std::vector<Part> found;

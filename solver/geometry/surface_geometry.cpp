@@ -12,7 +12,7 @@ constexpr double least_reach = 1.8; // spacings; linear interpolation needs no m
 // Spacings, of the way through the inside. Close to a sheet distances are those to it, without the
 // crease in the middle between two.
 constexpr double first_probe = 3, near_opposite = 1.5, longest_stride = 4, thickest = 24;
-constexpr std::size_t chunk = 256;
+constexpr std::size_t samples_per_task = 256;
 } // namespace
 
 void SurfaceGeometry::sample(const LevelSet& phi, const NarrowBand& band) {
@@ -50,7 +50,7 @@ void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band) { evaluate(phi
 
 void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order) {
   const SplineView spline = phi.view();
-  parallel_for(size(), chunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
     SurfaceArrays out{&phi_[begin], &nx_[begin], &ny_[begin],     &nz_[begin], &grad_[begin],
                       &KM_[begin],  &K_[begin],  &lap_KM_[begin], {}};
     if (with_gradient_) {

@@ -9,7 +9,7 @@ namespace lamella {
 
 namespace {
 constexpr double filter_strength = 1.4; // 2 is the limit of stability
-constexpr std::size_t chunk = 512;
+constexpr std::size_t nodes_per_task = 512;
 
 /// sum_d delta_d^4 c at a node, periodic.
 double fourth_differences(const Grid& grid, const double* c, int node) {
@@ -39,18 +39,18 @@ void Gauge::filter(LevelSet& phi, const NarrowBand& band) {
   const std::span<double> c = phi.coefficients();
   const std::span<const int> node = band.node();
   at_point_.resize(band.size());
-  parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(band.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++)
       change_[node[s]] = band.taper()[s] * noise_damping(phi.grid(), c, node[s]);
   });
   SplineView change = phi.view();
   change.coefficients = change_.data();
-  parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(band.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     const ConstPoints p = band.points();
     kernels().cubic(change, end - begin, {p.x + begin, p.y + begin, p.z + begin},
                     &at_point_[begin]);
   });
-  parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(band.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++) {
       c[node[s]] += change_[node[s]] - band.taper()[s] * at_point_[s];
       change_[node[s]] = 0;

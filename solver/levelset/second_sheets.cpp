@@ -10,12 +10,12 @@ namespace lamella {
 namespace {
 
 constexpr double apart = 1.5; // spacings between the points of neighbours that are on two sheets
-constexpr double same = 0.5;  // spacings within which two points of one node are the same
-constexpr int iterations = 6;
+constexpr double same_point = 0.5; // spacings within which two points of one node are the same
+constexpr int closest_point_steps = 6;
 constexpr double residual = 1e-3;    // spacings, of x - p off the normal
 constexpr double least_spread = 0.1; // 1 - d k: below, the point is not (safely) a nearest one
 constexpr std::size_t lists = 4096;
-constexpr std::size_t chunk = 512;
+constexpr std::size_t per_task = 512;
 
 double distance2(const Vec3& a, const Vec3& b) {
   double sum = 0;
@@ -48,11 +48,11 @@ std::vector<SecondSheets::Pair> SecondSheets::seeds(const NarrowBand& band, doub
       });
     }
   };
-  return parallel_collect<Pair>(band.size(), chunk, find);
+  return parallel_collect<Pair>(band.size(), per_task, find);
 }
 
 bool SecondSheets::is_known(const NarrowBand& band, const Pair& pair) const {
-  const double near2 = same * same * band.grid().spacing * band.grid().spacing;
+  const double near2 = same_point * same_point * band.grid().spacing * band.grid().spacing;
   const int s = band.slot(pair.node);
   if (s >= 0 && distance2(point_of(band, s), pair.p) < near2) return true;
   for (const int i : at_node_[pair.node % lists])
@@ -70,9 +70,9 @@ std::vector<SecondSheets::Pair> SecondSheets::accept(const LevelSet& phi, const 
   const double h = grid.spacing;
   const std::size_t n = candidates.size();
   std::vector<char> good(n, 0);
-  parallel_for(n, chunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, per_task, [&](std::size_t begin, std::size_t end) {
     const std::size_t m = end - begin;
-    double x[3][chunk], p[3][chunk], step[chunk], taylor[10 * chunk];
+    double x[3][per_task], p[3][per_task], step[per_task], taylor[10 * per_task];
     for (std::size_t i = 0; i < m; i++) {
       const Vec3 at = grid.position(candidates[begin + i].node);
       for (int d = 0; d < 3; d++) {
@@ -80,8 +80,8 @@ std::vector<SecondSheets::Pair> SecondSheets::accept(const LevelSet& phi, const 
         p[d][i] = candidates[begin + i].p[d];
       }
     }
-    kernels().closest_points(phi.view(), m, {x[0], x[1], x[2]}, {p[0], p[1], p[2]}, iterations,
-                             true, step);
+    kernels().closest_points(phi.view(), m, {x[0], x[1], x[2]}, {p[0], p[1], p[2]},
+                             closest_point_steps, true, step);
     kernels().taylor(phi.view(), m, {p[0], p[1], p[2]}, taylor);
     for (std::size_t i = 0; i < m; i++) {
       Pair& pair = candidates[begin + i];

@@ -6,11 +6,11 @@ namespace lamella {
 
 namespace {
 
-constexpr std::size_t chunk = 64;
+constexpr std::size_t points_per_task = 64;
 
 void fill(const LevelSet& f, std::span<const Eigen::Vector3d> points, std::span<Taylor> out) {
   const std::size_t n = points.size();
-  double x[3][chunk], o[10 * chunk];
+  double x[3][points_per_task], o[10 * points_per_task];
   for (std::size_t i = 0; i < n; i++)
     for (int d = 0; d < 3; d++) x[d][i] = points[i][d];
   kernels().taylor(f.view(), n, {x[0], x[1], x[2]}, o);
@@ -30,10 +30,10 @@ std::vector<Taylor> taylor(const LevelSet& f, std::span<const Eigen::Vector3d> p
   auto part = [&](std::size_t begin, std::size_t end) {
     fill(f, points.subspan(begin, end - begin), std::span(out).subspan(begin, end - begin));
   };
-  if (points.size() <= chunk)
+  if (points.size() <= points_per_task)
     part(0, points.size());
   else
-    parallel_for(points.size(), chunk, part);
+    parallel_for(points.size(), points_per_task, part);
   return out;
 }
 

@@ -297,7 +297,7 @@ std::string quoted(std::string_view text) {
 std::string value_text(const Key& key, Scene scene) {
   return std::visit(
       Overloaded{
-          [&](Member<std::string> text) { return quoted(text(scene)); },
+          [&](Member<std::string> text) { return lamella::quoted(text(scene)); },
           [&](Member<std::array<int, 3>> member) {
             const auto& [x, y, z] = member(scene);
             return x == y && y == z ? fmt::to_string(x) : fmt::format("[{}, {}, {}]", x, y, z);
@@ -307,7 +307,7 @@ std::string value_text(const Key& key, Scene scene) {
             return fmt::format("[{}]", fmt::join(list(scene), ", "));
           },
           [&](Member<std::vector<Vec3>> list) { return fmt::format("{}", list(scene)); },
-          [&](const Choice& choice) { return quoted(choice.names.at(choice.get(scene))); },
+          [&](const Choice& choice) { return lamella::quoted(choice.names.at(choice.get(scene))); },
           [&](auto scalar) { return fmt::to_string(scalar(scene)); },
       },
       key.access);

@@ -136,10 +136,10 @@ double quartic(double ring, double tube, const Vec3& x) {
 
 /// The level set in the shape's own frame, with all that does not depend on the point computed
 /// once.
-class LevelSet {
+class ShapeFunction {
 public:
-  LevelSet(const Shape& shape, const Perturbation& perturbation,
-           std::span<const BulgedCap> caps = {})
+  ShapeFunction(const Shape& shape, const Perturbation& perturbation,
+                std::span<const BulgedCap> caps = {})
       : shape_(shape), rotation_(rotation(shape)), displacement_(perturbation, shape), caps_(caps) {
     if (shape.kind == ShapeKind::torus) {
       scale_ = 1 / (8 * shape.ring_radius * shape.ring_radius * shape.tube_radius);
@@ -253,12 +253,12 @@ double smallest_radius_of_curvature(const Shape& shape) {
 
 double shape_function(const Shape& shape, const Vec3& point, const Perturbation& perturbation) {
   const Vec3& c = shape.center;
-  return LevelSet(shape, perturbation)({point[0] - c[0], point[1] - c[1], point[2] - c[2]});
+  return ShapeFunction(shape, perturbation)({point[0] - c[0], point[1] - c[1], point[2] - c[2]});
 }
 
 std::vector<double> initial_phi(const Shape& shape, const Grid& grid,
                                 const Perturbation& perturbation, std::span<const BulgedCap> caps) {
-  const LevelSet level_set(shape, perturbation, caps);
+  const ShapeFunction function(shape, perturbation, caps);
   const double shortest = grid.spacing * std::ranges::min(grid.nodes);
   const double width = std::max(16 * grid.spacing, shortest / 4);
   std::vector<double> phi(grid.size());
@@ -266,7 +266,7 @@ std::vector<double> initial_phi(const Shape& shape, const Grid& grid,
     for (std::size_t n = begin; n < end; ++n) {
       Vec3 d = grid.position(n);
       for (int i = 0; i < 3; ++i) d[i] = std::remainder(d[i] - shape.center[i], grid.length(i));
-      phi[n] = width * std::tanh(level_set(d) / width);
+      phi[n] = width * std::tanh(function(d) / width);
     }
   });
   return phi;

@@ -82,7 +82,7 @@ private:
       refuse({"name"},
              fmt::format("{} cannot name a folder; allowed: at most 100 letters, digits and signs "
                          "without slashes, not starting with a dot",
-                         quoted(name)));
+                         lamella::quoted(name)));
   }
 
   void range(const Key& key) const {

@@ -25,9 +25,9 @@ vtkSmartPointer<vtkPolyData> triangulated(vtkPolyData& surface) {
 }
 
 /// The points of a mesh, each new one added once.
-class Points {
+class DistinctPoints {
 public:
-  explicit Points(Mesh& mesh) : mesh_(mesh) {}
+  explicit DistinctPoints(Mesh& mesh) : mesh_(mesh) {}
 
   int index_of(const Vector3d& p) {
     const auto [at, is_new] = indices_.try_emplace({p[0], p[1], p[2]}, int(mesh_.points.size()));
@@ -45,7 +45,7 @@ private:
 Mesh mesh_of(vtkPolyData& surface) {
   const auto triangles = triangulated(surface);
   Mesh mesh;
-  Points points(mesh);
+  DistinctPoints points(mesh);
   const auto cells = vtk::TakeSmartPointer(triangles->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {
     vtkIdType count = 0;
