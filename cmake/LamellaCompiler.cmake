@@ -6,6 +6,6 @@ if(LAMELLA_NATIVE)
 endif()
 if(LAMELLA_SANITIZE)
   target_compile_options(lamella_compiler INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  target_link_options(lamella_compiler INTERFACE -fsanitize=address,undefined)
+    -fsanitize=${LAMELLA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(lamella_compiler INTERFACE -fsanitize=${LAMELLA_SANITIZE})
 endif()
