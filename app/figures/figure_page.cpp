@@ -63,7 +63,8 @@ render::Series exact_series(const StoredStates& run, const RunSpec& spec,
 std::string name_of(const PlotPanel& panel, std::size_t n, const StoredStates& run,
                     const std::string& column) {
   if (!panel.names.empty()) return panel.names[n];
-  if (panel.y.size() > 1) return render::notation_of(column).symbol();
+  const render::Notation& notation = render::notation_of(column);
+  if (panel.y.size() > 1) return panel.label.empty() ? notation.symbol() : notation.short_symbol();
   return panel.exact ? render::grid_label(run.scene().nodes) : "";
 }
 

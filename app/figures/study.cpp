@@ -110,6 +110,13 @@ bool knows_paper(const Study& study, std::size_t quantity) {
                              [&](const auto& row) { return std::isfinite(row[quantity]); });
 }
 
+double largest(const StudyResult& result, std::size_t quantity) {
+  double most = 0;
+  for (const auto& row : result.values)
+    if (std::isfinite(row[quantity])) most = std::max(most, std::abs(row[quantity]));
+  return most;
+}
+
 } // namespace
 
 StudyResult evaluate(const Study& study, const RunFinder& find_run) {
@@ -130,33 +137,40 @@ StudyResult evaluate(const Study& study, const RunFinder& find_run) {
   return result;
 }
 
-/// A column for each quantity, then its error, and the paper's where that is known.
+/// A column for each quantity, then its error where the exact value is known, and the paper's where
+/// that is known too.
 FigureTable table_of(const Study& study, const StudyResult& result) {
   FigureTable table;
   const auto& [vary, vary_unit] = name_and_unit(study.vary);
   table.names.push_back(vary);
   table.units.push_back(vary_unit);
-  table.rows.resize(study.values.size() + 1);
-  for (std::size_t n = 0; n < study.values.size(); ++n) table.rows[n].push_back(result.labels[n]);
-  table.rows.back().emplace_back("exact");
+  for (const std::string& label : result.labels) table.rows.push_back({label});
+  const bool is_known =
+      std::ranges::any_of(result.exact, [](double x) { return std::isfinite(x); });
+  if (is_known) table.rows.push_back({"exact"});
   for (std::size_t q = 0; q < study.quantities.size(); ++q) {
     const render::Notation& notation = notation_of(study.quantities[q]);
-    const double exact = result.exact[q];
+    const int exponent = render::exponent_of(largest(result, q));
+    const double power = std::pow(10, exponent), exact = result.exact[q] / power;
+    const auto value = [&](std::size_t n) { return result.values[n][q] / power; };
+    const std::string unit = render::with_power(exponent, notation.unit(result.units));
     const auto column = [&](const std::string& name, auto&& cell_of, const std::string& last) {
       table.names.push_back(name);
-      table.units.push_back(notation.unit(result.units));
+      table.units.push_back(unit);
       for (std::size_t n = 0; n < study.values.size(); ++n)
         table.rows[n].push_back(minus(cell_of(n)));
-      table.rows.back().push_back(minus(last));
+      if (is_known) table.rows.back().push_back(minus(last));
     };
     column(
-        notation.symbol(), [&](std::size_t n) { return cell(result.values[n][q], "{:.4f}"); },
+        notation.symbol(), [&](std::size_t n) { return cell(value(n), "{:.4f}"); },
         cell(exact, "{:.4f}"));
+    if (!std::isfinite(exact)) continue;
     column(
-        "error", [&](std::size_t n) { return cell(result.values[n][q] - exact, "{:+.4f}"); }, "");
+        "error", [&](std::size_t n) { return cell(value(n) - exact, "{:+.4f}"); }, "");
     if (knows_paper(study, q))
       column(
-          "paper's", [&](std::size_t n) { return cell(study.paper[n][q] - exact, "{:+.3f}"); }, "");
+          "paper's",
+          [&](std::size_t n) { return cell(study.paper[n][q] / power - exact, "{:+.3f}"); }, "");
   }
   return table;
 }

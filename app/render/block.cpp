@@ -3,6 +3,7 @@
 #include "render/style.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace lamella::render {
 namespace {
@@ -11,6 +12,7 @@ constexpr double margin = 50, gap = 60; ///< of pages
 constexpr double plot_aspect = 0.68;    ///< height over width
 constexpr double line_height = 1.35 * style::small_type;
 constexpr double cell_gap = 40, row_height = 1.6 * style::small_type;
+constexpr double capital_height = 0.73; ///< of letters, in the size of their type
 
 TextStyle small() { return {style::small_type, style::ink}; }
 
@@ -51,14 +53,16 @@ double TableBlock::height(double) const {
   return heading_.height() + row_height * double(cells_.size()) + 0.6 * row_height;
 }
 
-/// As wide as the text wants where there is room, closer where there is not.
+/// As wide as the text wants where there is room, closer where there is not, then smaller.
 void TableBlock::draw(Sheet& sheet, const Box& place, Camera) const {
   heading_.draw(sheet, place);
-  const std::vector<double> widths = column_widths(cells_);
-  double total = 0;
-  for (const double width : widths) total += width;
-  const double between = std::min(
-      2.5 * cell_gap, (place.width - total) / double(std::max<std::size_t>(widths.size() - 1, 1)));
+  std::vector<double> widths = column_widths(cells_);
+  const double gaps = std::max<double>(double(widths.size()) - 1, 1);
+  const double wanted = std::accumulate(widths.begin(), widths.end(), 0.0);
+  const double shrink = std::min(1.0, place.width / (wanted + gaps * 0.6 * cell_gap));
+  for (double& width : widths) width *= shrink;
+  const double total = shrink * wanted;
+  const double between = std::min(2.5 * cell_gap, (place.width - total) / gaps);
   const Box used{place.left, place.top, total + between * double(widths.size() - 1), place.height};
   double y = place.top + heading_.height();
   rule(sheet, used, y, style::hairline * 1.5);
@@ -69,12 +73,14 @@ void TableBlock::draw(Sheet& sheet, const Box& place, Camera) const {
       const double left = right + between;
       right = left + widths[c];
       TextStyle style = small();
+      style.size *= shrink;
       style.align = c == 0 ? 0 : 1;
-      sheet.text({c == 0 ? left : right, y - 0.4 * row_height}, cells_[r][c], style);
+      const double base = y - (row_height - capital_height * style.size) / 2;
+      sheet.text({c == 0 ? left : right, base}, cells_[r][c], style);
     }
     if (r + 1 == heads_) rule(sheet, used, y, style::hairline);
   }
-  rule(sheet, used, y + 0.1 * row_height, style::hairline * 1.5);
+  rule(sheet, used, y, style::hairline * 1.5);
 }
 
 double TextBlock::height(double width) const {

@@ -47,6 +47,17 @@ std::string number(double value, int digits) {
          power_of_ten(exponent);
 }
 
+int exponent_of(double largest) {
+  if (!(largest > 0)) return 0;
+  const int magnitude = int(std::floor(std::log10(largest) + 1e-9));
+  return magnitude < -2 || magnitude >= 5 ? magnitude : 0;
+}
+
+std::string with_power(int exponent, const std::string& unit) {
+  if (exponent == 0) return unit;
+  return unit.empty() ? power_of_ten(exponent) : power_of_ten(exponent) + " " + unit;
+}
+
 std::string grid_label(const std::array<int, 3>& nodes) {
   const auto& [x, y, z] = nodes;
   return x == y && y == z ? fmt::format("{}³", x) : fmt::format("{}×{}×{}", x, y, z);
@@ -81,10 +92,8 @@ std::string plain(const std::string& text) {
 
 Ticks linear_ticks(double low, double high) {
   const double step = round_step((high - low) / 3);
-  const double largest = std::max(std::abs(low), std::abs(high));
-  const int magnitude = int(std::floor(std::log10(largest) + 1e-9));
   Ticks ticks;
-  ticks.exponent = magnitude < -2 || magnitude >= 5 ? magnitude : 0;
+  ticks.exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
   const double unit = std::pow(10, ticks.exponent);
   int decimals = 0;
   for (double s = step / unit; std::abs(s - std::round(s)) > 1e-6; s *= 10) ++decimals;

@@ -15,6 +15,13 @@ std::string superscript(int value);
 /// "10⁻³"
 std::string power_of_ten(int exponent);
 
+/// The power of ten that numbers up to `largest` are written without: 0, unless they would be very
+/// small or large.
+int exponent_of(double largest);
+
+/// "10⁻³ *κ*", what such numbers are in units of.
+std::string with_power(int exponent, const std::string& unit);
+
 /// "64³", or "64×64×96"
 std::string grid_label(const std::array<int, 3>& nodes);
 

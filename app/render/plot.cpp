@@ -113,7 +113,7 @@ std::string title_of(const Axis& axis, int exponent) {
   if (slash == std::string::npos) return axis.title + " / " + power_of_ten(exponent);
   std::string unit = axis.title.substr(slash + 3);
   if (unit.starts_with('(')) unit = unit.substr(1, unit.size() - 2);
-  return axis.title.substr(0, slash) + " / (" + power_of_ten(exponent) + " " + unit + ")";
+  return axis.title.substr(0, slash) + " / (" + with_power(exponent, unit) + ")";
 }
 
 void set_up(QCPAxis& axis, const Axis& wanted, const Range& range, const Ticks& ticks) {

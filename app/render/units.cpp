@@ -134,7 +134,8 @@ std::string Notation::title(const Units& units) const { return with_unit(symbol(
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   if (unit.empty()) return name;
-  return unit.find('/') == unit.npos ? name + " / " + unit : name + " / (" + unit + ")";
+  const bool is_composed = unit.find_first_of("/ ") != unit.npos;
+  return name + " / " + (is_composed ? "(" + unit + ")" : unit);
 }
 
 const Notation* find_notation(std::string_view name) {
@@ -150,7 +151,8 @@ const Notation& notation_of(std::string_view name) {
 
 std::string time_label(double time, const Units& units) {
   const Notation& t = notation_of("t");
-  return t.letter + " = " + number(t.value(time, units)) + " " + t.unit(units);
+  const std::string value = t.letter + " = " + number(t.value(time, units));
+  return time == 0 ? value : value + " " + t.unit(units);
 }
 
 } // namespace lamella::render

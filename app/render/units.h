@@ -43,7 +43,7 @@ const Notation* find_notation(std::string_view name);
 /// Of what is one of them.
 const Notation& notation_of(std::string_view name);
 
-/// "*t* = 1.6×10⁻³ *ζL*⁴/*κ*", of a time of the scene.
+/// "*t* = 1.6×10⁻³ *ζL*⁴/*κ*", "*t* = 0", of a time of the scene.
 std::string time_label(double time, const Units& units);
 
 } // namespace lamella::render

@@ -165,6 +165,16 @@ TEST(StudyOfGrids, FitsTheOrder) {
   EXPECT_TRUE(std::isnan(fitted_order({{0.1, 1}})));
 }
 
+TEST(StudyOfGrids, KeepsItsDigitsWhateverTheUnitOfLength) {
+  Study study;
+  study.vary = "grid.nodes";
+  study.values = {48};
+  study.quantities = {"P", "int_KM2"};
+  const FigureTable table = table_of(study, {{-1.062e-7, 98}, {{-1.06e-7, 98.5}}, {40}, {"48³"}});
+  EXPECT_EQ(table.csv(), "grid,pressure P / (10⁻⁷ κ/L³),error / (10⁻⁷ κ/L³),∫ KM² dA,error\n"
+                         "48³,-1.0600,+0.0020,98.5000,+0.5000\nexact,-1.0620,,98.0000,\n");
+}
+
 TEST(StudyOfGrids, BecomesATable) {
   Study study;
   study.vary = "grid.nodes";
@@ -176,6 +186,9 @@ TEST(StudyOfGrids, BecomesATable) {
   EXPECT_EQ(table.csv(), "grid,pressure P / (κ/L³),error / (κ/L³),paper's / (κ/L³)\n"
                          "48³,-106.0000,+0.2000,\n"
                          "64³,-106.1500,+0.0500,+4.300\nexact,-106.2000,,\n");
+  const StudyResult unknown{{NAN}, {{-106.0}, {-106.15}}, {0.04, 0.03}, {"48³", "64³"}};
+  EXPECT_EQ(table_of(study, unknown).csv(),
+            "grid,pressure P / (κ/L³)\n48³,-106.0000\n64³,-106.1500\n");
   EXPECT_THAT(table.cells().at(1), ElementsAre("", "*κ*/*L*³", "*κ*/*L*³", "*κ*/*L*³"));
   EXPECT_THAT(table.markdown(), HasSubstr("| 64³ | −106.1500 | +0.0500 | +4.300 |"));
 }

@@ -378,9 +378,9 @@ TEST(EnergyPlot, has_a_colour_for_each_term) {
   }
   const std::vector<Series> series = energy_plot(history, Units()).series;
   EXPECT_EQ(series.size(), 9u) << "all, and the whole";
-  for (const Series& a : series)
-    for (const Series& b : series)
-      if (&a != &b) EXPECT_NE(a.color, b.color) << a.name << " and " << b.name;
+  for (std::size_t a = 0; a < series.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_NE(series[a].color, series[b].color) << series[a].name << " and " << series[b].name;
 }
 
 TEST(EnergyPlot, is_in_the_units_beside_its_axes) {
@@ -416,6 +416,7 @@ TEST(Units, name_the_phase_whose_modulus_they_take) {
   scene.ld.bending_modulus = scene.lo.bending_modulus = 25;
   EXPECT_EQ(Units(scene).kappa, 25);
   EXPECT_EQ(time_label(2e-3, Units(scene)), "*t* = 0.05 *ζL*⁴/*κ*");
+  EXPECT_EQ(time_label(0, Units(scene)), "*t* = 0");
   scene.lo.bending_modulus = 125;
   EXPECT_EQ(time_label(2e-3, Units(scene)), "*t* = 0.05 *ζL*⁴/*κ*_{Ld}");
   scene.lo.bending_modulus = 5;
