@@ -128,7 +128,7 @@ int vtkMembraneMeasures::RequestData(
     [&]
     {
       vtkImageData* image = vtkImageData::GetData(input[0]);
-      const auto vesicle = lamella::vesicle_in(*image, this->PhiArray);
+      const auto vesicle = lamella::vesicle_in(*image, { this->PhiArray });
       if (this->Next == 0)
       {
         lamella::remark(this, vesicle.remark);

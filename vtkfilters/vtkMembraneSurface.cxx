@@ -187,7 +187,7 @@ int vtkMembraneSurface::RequestData(
     [&]
     {
       vtkImageData* image = vtkImageData::GetData(input[0]);
-      const auto [frame, center, remark] = lamella::vesicle_in(*image, this->PhiArray);
+      const auto [frame, center, remark] = lamella::vesicle_in(*image, { this->PhiArray });
       lamella::remark(this, remark);
       const auto mesh = this->ComputeCurvatures
         ? ExactSurface(frame, this->Refinement, *image,

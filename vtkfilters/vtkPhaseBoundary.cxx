@@ -121,7 +121,7 @@ int vtkPhaseBoundary::RequestData(
   return lamella::reporting(this,
     [&]
     {
-      const auto vesicle = lamella::vesicle_in(*vtkImageData::GetData(input[0]), this->PhiArray);
+      const auto vesicle = lamella::vesicle_in(*vtkImageData::GetData(input[0]), { this->PhiArray });
       lamella::remark(this, vesicle.remark);
       if (vesicle.frame.psi.empty())
       {

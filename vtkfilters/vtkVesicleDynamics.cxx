@@ -23,31 +23,6 @@ namespace
 constexpr std::array<std::string_view, 13> Sections = { "membrane", "domains", "ld", "lo", "line",
   "stretch", "volume", "area_difference", "contact", "run", "stop", "numerics", "output" };
 
-/** The nodes of an image to come; none where nothing is known of it. */
-lamella::Lattice AnnouncedLattice(vtkInformation& info)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  lamella::Lattice lattice{ { 1, 1, 1 }, { 1, 1, 1 } };
-  if (!info.Has(Pipeline::WHOLE_EXTENT()))
-  {
-    return lattice;
-  }
-  const int* extent = info.Get(Pipeline::WHOLE_EXTENT());
-  if (info.Has(vtkDataObject::SPACING()))
-  {
-    std::copy_n(info.Get(vtkDataObject::SPACING()), 3, lattice.spacing.begin());
-  }
-  const double* origin =
-    info.Has(vtkDataObject::ORIGIN()) ? info.Get(vtkDataObject::ORIGIN()) : nullptr;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    lattice.nodes[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
-    lattice.first[axis] =
-      (origin ? origin[axis] : 0) + extent[2 * axis] * lattice.spacing[axis];
-  }
-  return lattice;
-}
-
 lamella::Trajectory Begin(const lamella::Scene& scene, lamella::Frame start)
 {
   lamella::validate(scene);
@@ -81,6 +56,8 @@ public:
     return this->InputTime == inputTime && this->PhiArray == phiArray &&
       lamella::to_toml(scene) == lamella::to_toml(own); // what counts
   }
+
+  lamella::Grid Grid() const { return this->Trajectory.scene().grid(); }
 
   vtkMTimeType InputTime;
   std::string PhiArray;
@@ -145,7 +122,7 @@ int vtkVesicleDynamics::RequestInformation(
   try
   {
     const auto [grid, center] =
-      lamella::solver_place(AnnouncedLattice(*input[0]->GetInformationObject(0)));
+      lamella::solver_place(lamella::announced_place(*input[0]->GetInformationObject(0)));
     lamella::offer_grid(*output->GetInformationObject(0), grid, center);
   }
   catch (const lamella::InputError&)
@@ -183,7 +160,7 @@ void vtkVesicleDynamics::BeginRunIfNeeded(vtkImageData& image)
     return;
   }
   this->Current.reset();
-  const auto vesicle = lamella::start_of(lamella::vesicle_in(image, this->PhiArray));
+  const auto vesicle = lamella::start_of(lamella::vesicle_in(image, { this->PhiArray }));
   lamella::remark(this, vesicle.remark);
   this->Current = std::make_unique<Run>(*this->Scene, vesicle, time, this->PhiArray);
 }
@@ -195,6 +172,8 @@ int vtkVesicleDynamics::RequestData(
     [&]
     {
       this->BeginRunIfNeeded(*vtkImageData::GetData(input[0]));
+      lamella::offer_grid(*output->GetInformationObject(0), this->Current->Grid(),
+        this->Current->Center); // masks may have needed more room than was announced
       lamella::serve(
         this, this->Current->Trajectory, this->Current->Center, *request, *output);
     });

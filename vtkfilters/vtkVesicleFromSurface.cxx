@@ -22,6 +22,7 @@ namespace
 {
 constexpr double Filling = 0.7; // of the box by a surface that is scaled
 constexpr double Clearance = 3; // spacings that the solver keeps free at the sides of the box
+constexpr auto Remedy = "switch ScaleToBox on, choose more Nodes or less Smoothing";
 
 lamella::Scene GridOnly(const int nodes[3], double halfWidth)
 {
@@ -43,6 +44,27 @@ lamella::Grid CheckedGrid(const int nodes[3], double halfWidth)
 double ShortestSide(const lamella::Grid& grid)
 {
   return grid.spacing * *std::min_element(grid.nodes.begin(), grid.nodes.end());
+}
+
+/** Leaves out what the grid cannot carry; throws where that is all. */
+void DropSmallParts(
+  lamella::PartedMesh& mesh, double smoothing, const lamella::Grid& grid, std::string& remark)
+{
+  const double h = grid.spacing, least = lamella::least_volume(smoothing) * h * h * h;
+  double largest = 0;
+  for (const lamella::Part& part : mesh.parts)
+  {
+    largest = std::max(largest, part.volume);
+  }
+  lamella::drop_small_parts(mesh, least, remark);
+  if (mesh.parts.empty())
+  {
+    throw lamella::InputError(fmt::format(
+      "the surface is too small for the grid: the largest of its parts encloses as much as a ball "
+      "of radius {:.3g}, and {:.3g} is the least; {}, or, where small parts are far from it, take "
+      "the largest alone (vtkPolyDataConnectivityFilter with SetExtractionModeToLargestRegion())",
+      lamella::radius_of(largest), lamella::radius_of(least), Remedy));
+  }
 }
 
 void CheckFits(const lamella::Mesh& mesh, const lamella::Grid& grid)
@@ -84,24 +106,23 @@ int vtkVesicleFromSurface::RequestData(
     [&]
     {
       const lamella::Grid grid = CheckedGrid(this->Nodes, this->HalfWidth);
-      lamella::Mesh mesh = lamella::mesh_of(*vtkPolyData::GetData(input[0]));
-      lamella::check_closed(mesh);
+      std::string remark;
+      lamella::Mesh closed = lamella::closed_mesh_of(*vtkPolyData::GetData(input[0]), remark);
+      lamella::check_crossings(closed);
       if (this->ScaleToBox)
       {
-        lamella::scale(mesh, Filling * ShortestSide(grid));
+        lamella::scale(closed, Filling * ShortestSide(grid));
       }
-      CheckFits(mesh, grid);
+      lamella::PartedMesh mesh = lamella::parted(std::move(closed));
+      DropSmallParts(mesh, this->Smoothing, grid, remark);
+      CheckFits(mesh.mesh, grid);
       this->UpdateProgress(0.2);
-      std::vector<double> phi = lamella::signed_distance(mesh, grid);
-      if (*std::min_element(phi.begin(), phi.end()) >= 0)
-      {
-        throw lamella::InputError("the surface encloses no node of the grid; switch ScaleToBox on, "
-                                  "or choose more Nodes");
-      }
+      auto [phi, nearest] = lamella::signed_distance(mesh, grid);
       lamella::level_off(grid, phi);
       this->UpdateProgress(0.8);
       lamella::blur(grid, this->Smoothing, phi);
-      lamella::set_volume(grid, lamella::volume_of(mesh), phi);
+      lamella::keep_volumes(grid, mesh.parts, nearest, Remedy, phi, remark);
+      lamella::remark(this, remark);
       lamella::fill_image(*vtkImageData::GetData(output), { .grid = grid, .phi = std::move(phi) });
     });
 }

@@ -4,12 +4,14 @@
  *
  * Takes any closed surface: a segmented cell, a drawing (STL, PLY, OBJ, VTP). It must be watertight
  * and must not cross itself; how its triangles are wound does not matter, and it may have several
- * parts, also within each other. Points at the same place are one point. Holes, branches and
- * crossings are errors that tell how many there are and where.
+ * parts, also within each other. Points within 1e-6 of the diagonal of its bounds are one point; edges
+ * are divided where corners of other triangles lie on them. Triangles that are there more than once
+ * count once, and parts that are too small for the grid are left out, with a warning. Holes, branches
+ * and crossings are errors that tell how many there are and where, and what helps.
  *
  * The level set is the signed distance, blurred over Smoothing spacings, so that facets and sharp
- * edges become what a grid can carry, with the volume of the surface. Away from the membrane it levels
- * off.
+ * edges become what a grid can carry. Each part keeps its volume. Away from the membrane the level set
+ * levels off.
  *
  * Input: vtkPolyData, polygons or triangle strips.
  *

@@ -9,8 +9,8 @@ import session
 from paraview import servermanager, simple, smtrace
 
 SOURCES = {"Vesicle": "sources", "VesicleShape": "sources", "VesicleScene": "sources", "VesicleRun": "sources",
-           "VesicleDynamics": "filters", "VesicleFromSurface": "filters", "MembraneSurface": "filters",
-           "PhaseBoundary": "filters", "MembraneMeasures": "filters"}
+           "VesicleDynamics": "filters", "VesicleFromSurface": "filters", "VesicleFromImage": "filters",
+           "MembraneSurface": "filters", "PhaseBoundary": "filters", "MembraneMeasures": "filters"}
 BUDDING = ["grid.nodes=32", "run.end_time=2e-3", "output.frames=3"]
 
 
@@ -48,8 +48,31 @@ class Proxies(Session):
         self.update(surface)
         self.update(simple.MembraneMeasures(Input=dynamics))
         self.update(simple.VesicleFromSurface(Input=surface))
+        self.update(simple.VesicleFromImage(Input=shape))
         level_set = simple.OutputPort(two_phases(), 3)
         self.update(simple.PhaseBoundary(Input=level_set))
+
+    def test_labels_of_cells(self):
+        """Two boxes of labels in cell data; each is chosen by its number."""
+        labels = simple.ProgrammableSource(OutputDataSetType="vtkImageData", Script="""
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+k, j, i = numpy.meshgrid(*[numpy.arange(40)] * 3, indexing="ij")
+inside = (abs(j - 19.5) < 9) & (abs(k - 19.5) < 9)
+values = numpy.where(inside & (i < 16) & (i > 4), 1, 0) + numpy.where(inside & (i > 20) & (i < 36), 2, 0)
+array = numpy_to_vtk(values.astype(numpy.uint8).ravel(), deep=True)
+array.SetName("labels")
+output.VTKObject.SetDimensions(41, 41, 41)
+output.VTKObject.GetCellData().AddArray(array)
+""", ScriptRequestInformation="""
+self.GetOutputInformation(0).Set(self.GetExecutive().WHOLE_EXTENT(), [0, 40] * 3, 6)
+""")
+        for label, voxels in ((1, 11 * 18 * 18), (2, 15 * 18 * 18)):
+            vesicle = simple.VesicleFromImage(Input=labels, Label=label)
+            measures = simple.MembraneMeasures(Input=vesicle)
+            measures.UpdatePipeline()
+            volume = servermanager.Fetch(measures).GetColumnByName("V").GetValue(0)
+            self.assertAlmostEqual(volume / voxels, 1, delta=1e-4)
 
     def test_say_what_they_are(self):
         manager = servermanager.ProxyManager().SMProxyManager

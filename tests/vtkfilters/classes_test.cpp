@@ -5,6 +5,7 @@
 #include <vtkMembraneSurface.h>
 #include <vtkPhaseBoundary.h>
 #include <vtkVesicleDynamics.h>
+#include <vtkVesicleFromImage.h>
 #include <vtkVesicleFromSurface.h>
 #include <vtkVesicleRunReader.h>
 #include <vtkVesicleSceneReader.h>
@@ -21,8 +22,8 @@ template <class Class>
 class Classes : public testing::Test {};
 
 using All = testing::Types<vtkMembraneMeasures, vtkMembraneSurface, vtkPhaseBoundary,
-                           vtkVesicleDynamics, vtkVesicleFromSurface, vtkVesicleRunReader,
-                           vtkVesicleSceneReader, vtkVesicleSource>;
+                           vtkVesicleDynamics, vtkVesicleFromImage, vtkVesicleFromSurface,
+                           vtkVesicleRunReader, vtkVesicleSceneReader, vtkVesicleSource>;
 TYPED_TEST_SUITE(Classes, All);
 
 TYPED_TEST(Classes, MakeAndPrintThemselves) {

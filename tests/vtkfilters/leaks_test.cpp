@@ -8,6 +8,7 @@
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 #include <vtkVesicleDynamics.h>
+#include <vtkVesicleFromImage.h>
 #include <vtkVesicleFromSurface.h>
 #include <vtkVesicleRunReader.h>
 #include <vtkVesicleSceneReader.h>
@@ -96,6 +97,7 @@ TEST_F(Leaks, OfSources) {
 
 TEST_F(Leaks, OfSurfaces) { expect_none_after_source<vtkMembraneSurface>(); }
 TEST_F(Leaks, OfBoundaries) { expect_none_after_source<vtkPhaseBoundary>(); }
+TEST_F(Leaks, OfImages) { expect_none_after_source<vtkVesicleFromImage>(); }
 TEST_F(Leaks, OfMeasures) { expect_none_after_source<vtkMembraneMeasures>(); }
 
 TEST_F(Leaks, OfSurfacesThatComeIn) {

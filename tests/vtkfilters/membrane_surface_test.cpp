@@ -355,7 +355,10 @@ TEST(MembraneSurface, NamesTheArraysThereAre) {
   vtkNew<vtkMembraneSurface> surface;
   surface->SetInputData(image);
   surface->SetPhiArray("fi");
-  EXPECT_THAT(error_of(surface), HasSubstr("no point data array \"fi\"; it has phi, other"));
+  EXPECT_THAT(error_of(surface),
+              HasSubstr("no array \"fi\"; it has phi, other: choose one by SetPhiArray()"));
+  surface->SetPhiArray("phi");
+  EXPECT_EQ(error_of(surface), "");
 }
 
 } // namespace

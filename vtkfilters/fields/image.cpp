@@ -1,13 +1,13 @@
 #include "fields/image.h"
 
-#include "fields/resample.h"
-#include "fields/smooth.h"
+#include "fields/image_lattice.h"
+#include "fields/mask.h"
+#include "fields/start_image.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkInformation.h>
-#include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
@@ -16,44 +16,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace lamella {
 namespace {
 
 constexpr int least_nodes = 8;                  // along an axis: what a spline needs
 constexpr double most_nodes = 512. * 512 * 512; // of what is resampled
-// Of a smoothed edge, in the largest of the spacings. At 1.25, K_M of an ellipsoid went from -16 to
-// 0 in place of -6.3 to -4.1, and its run broke down; at 2 from -7.5 to -2.1.
-constexpr double mask_width = 2;
 
-std::string names_of_arrays(vtkPointData& data) {
+std::string names_of_arrays(vtkDataSetAttributes& data) {
   std::vector<std::string> names;
   for (int a = 0; a < data.GetNumberOfArrays(); ++a)
     if (const char* name = data.GetArrayName(a)) names.push_back(name);
   return names.empty() ? "no named ones" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-vtkDataArray& find_phi(vtkImageData& image, const std::string& name) {
-  vtkPointData& data = *image.GetPointData();
+/// The point data of an image, or else its cell data: that with the array of a name, or with any.
+vtkDataSetAttributes& data_with(vtkImageData& image, const std::string& name) {
+  vtkDataSetAttributes *points = image.GetPointData(), *cells = image.GetCellData();
+  if (points->GetArray(name.c_str())) return *points;
+  if (cells->GetArray(name.c_str())) return *cells;
+  return points->GetNumberOfArrays() > 0 || cells->GetNumberOfArrays() == 0 ? *points : *cells;
+}
+
+vtkDataArray& find_phi(vtkDataSetAttributes& data, const std::string& name) {
   if (vtkDataArray* array = data.GetArray(name.c_str())) return *array;
-  if (data.GetNumberOfArrays() == 0 && image.GetCellData()->GetNumberOfArrays() > 0)
-    throw InputError("the image has cell data only, and point data is needed "
-                     "(vtkCellDataToPointData makes it)");
   if (data.GetNumberOfArrays() == 0)
-    throw InputError(fmt::format("the image has no point data; a level set \"{}\" is needed, "
-                                 "negative inside the membrane",
+    throw InputError(fmt::format("the image has no data; a level set \"{}\" is needed, negative "
+                                 "inside the membrane",
                                  name));
   if (data.GetNumberOfArrays() > 1 || !data.GetArray(0))
-    throw InputError(fmt::format("the image has no point data array \"{}\"; it has {}", name,
-                                 names_of_arrays(data)));
+    throw InputError(fmt::format("the image has no array \"{}\"; it has {}: choose one by "
+                                 "SetPhiArray()",
+                                 name, names_of_arrays(data)));
   return *data.GetArray(0);
 }
 
 std::vector<double> values_of(vtkDataArray& array) {
   const std::string name = array.GetName() ? array.GetName() : "";
   if (array.GetNumberOfComponents() != 1)
-    throw InputError(fmt::format("the array \"{}\" has {} components; a field has one", name,
-                                 array.GetNumberOfComponents()));
+    throw InputError(fmt::format("the array \"{}\" has {} components, and a field has one; "
+                                 "vtkImageExtractComponents with SetComponents(0) takes the first",
+                                 name, array.GetNumberOfComponents()));
   vtkNew<vtkDoubleArray> doubles;
   doubles->DeepCopy(&array);
   const std::vector<double> values(doubles->GetPointer(0),
@@ -64,28 +69,6 @@ std::vector<double> values_of(vtkDataArray& array) {
     throw InputError(
         fmt::format("{} of the {} values of \"{}\" are not finite", bad, values.size(), name));
   return values;
-}
-
-std::vector<double> optional_values(vtkImageData& image, const char* name) {
-  vtkDataArray* array = image.GetPointData()->GetArray(name);
-  return array ? values_of(*array) : std::vector<double>();
-}
-
-Lattice lattice_of(vtkImageData& image) {
-  Lattice lattice;
-  image.GetDimensions(lattice.nodes.data());
-  image.GetSpacing(lattice.spacing.data());
-  if (image.GetNumberOfPoints() == 0) throw InputError("the image is empty");
-  if (*std::ranges::min_element(lattice.nodes) < least_nodes)
-    throw InputError(fmt::format("the image has {} nodes; along each axis {} are the least",
-                                 fmt::join(lattice.nodes, " x "), least_nodes));
-  if (!std::ranges::all_of(lattice.spacing, [](double h) { return h > 0 && std::isfinite(h); }))
-    throw InputError(fmt::format("the image has spacings of {:g}; they must be positive",
-                                 fmt::join(lattice.spacing, ", ")));
-  if (!image.GetDirectionMatrix()->IsIdentity())
-    throw InputError("the image is turned; its axes must be x, y and z");
-  image.GetPoint(0, lattice.first.data());
-  return lattice;
 }
 
 /// The grid that an image is brought onto.
@@ -104,41 +87,52 @@ std::string remark_on(const Lattice& lattice, const Grid& grid) {
                      fmt::join(lattice.spacing, ", "), fmt::join(grid.nodes, " x "), grid.spacing);
 }
 
-Vec3 center_of(const Lattice& lattice, const Grid& grid) {
-  return {lattice.first[0] - grid.origin(0), lattice.first[1] - grid.origin(1),
-          lattice.first[2] - grid.origin(2)};
+bool is_label(double value) { return value >= 0 && value == std::floor(value) && value < 2e9; }
+
+/// The values of an image and how often each is there; none where they are more than so many.
+std::map<double, std::size_t> values_in(const std::vector<double>& values, std::size_t most) {
+  std::map<double, std::size_t> count;
+  for (const double value : values) {
+    ++count[value];
+    if (count.size() > most) return {};
+  }
+  return count;
 }
 
-bool is_mask(const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax(values);
-  return low < high && std::ranges::all_of(values, [low = low, high = high](double value) {
-           return value == low || value == high;
-         });
+std::string list_of_labels(const std::map<double, std::size_t>& labels) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> listed;
+  for (const auto& [label, voxels] : labels)
+    if (listed.size() < most) listed.push_back(fmt::format("{:g} ({} voxels)", label, voxels));
+  return fmt::format("{}{}", fmt::join(listed, ", "),
+                     labels.size() > most ? fmt::format(" and {} more", labels.size() - most) : "");
 }
 
-/// The level set of a mask, on the grid; adds to the remark.
-std::vector<double> phi_of_mask(std::vector<double> mask, const Lattice& lattice, const Grid& grid,
-                                std::string& remark) {
-  const auto [low, high] = std::ranges::minmax(mask);
-  const double inside = low < 0 ? low : high;
-  for (double& value : mask) value = value == inside;
-  const double width = mask_width * *std::ranges::max_element(lattice.spacing) / grid.spacing;
-  mask = from_mask(grid, width, resample(std::move(mask), lattice, Interpolation::linear));
-  if (mask.empty())
-    throw InputError(
-        fmt::format("nothing is left of the inside of the mask, which is smoothed over "
-                    "{:.3g} spacings; it must be several of them thick",
-                    width));
-  remark += fmt::format("{}phi is {:g} or {:g}: taken for a mask, inside where it is {:g}, and "
-                        "smoothed over {:.3g} spacings",
-                        remark.empty() ? "" : "; ", low, high, inside, width);
-  return mask;
+/// Throws where a level set has no zeros.
+void check_values(const std::vector<double>& phi) {
+  constexpr std::size_t most_labels = 1000;
+  const auto [least, greatest] = std::ranges::minmax(phi);
+  if (least < 0 && greatest > 0) return;
+  if (least == greatest)
+    throw InputError(fmt::format("there is no membrane: phi is {:g} everywhere", least));
+  const auto labels = std::ranges::all_of(phi, is_label) ? values_in(phi, most_labels)
+                                                         : decltype(values_in({}, 0))();
+  if (!labels.empty())
+    throw InputError(fmt::format(
+        "the image has labels in place of a level set: {}; vtkVesicleFromImage with SetLabel({:g}) "
+        "takes one of them for the inside, or, of gray values, vtkImageThreshold makes a mask",
+        list_of_labels(labels), std::next(labels.begin())->first));
+  throw InputError(
+      fmt::format("there is no membrane: phi goes from {:g} to {:g}, and is nowhere {}; it must be "
+                  "negative inside and positive outside, or a mask of two values, which "
+                  "vtkImageThreshold makes",
+                  least, greatest, least < 0 ? "positive" : "negative"));
 }
 
 /// Throws where products of phi and its derivatives would leave the range of numbers.
-void check_size(const Frame& frame) {
+void check_size(const std::vector<double>& phi) {
   constexpr double least = 1e-60, most = 1e60;
-  const auto [low, high] = std::ranges::minmax(frame.phi);
+  const auto [low, high] = std::ranges::minmax(phi);
   const double largest = std::max(-low, high);
   if (largest > most || (largest > 0 && largest < least))
     throw InputError(fmt::format("phi goes from {:g} to {:g}; it should be about a distance from "
@@ -146,25 +140,80 @@ void check_size(const Frame& frame) {
                                  low, high));
 }
 
-/// Throws where phi has no zeros, or some of its inside is at the sides of the box.
-void check_closed(const Frame& frame) {
-  const auto [least, greatest] = std::ranges::minmax(frame.phi);
-  if (!(least < 0 && greatest > 0))
-    throw InputError(
-        fmt::format("there is no membrane: phi goes from {:g} to {:g}, and is nowhere "
-                    "{}; it must be negative inside and positive outside, or a mask of "
-                    "two values",
-                    least, greatest, least < 0 ? "positive" : "negative"));
+/// Throws where some of the inside is at the sides of the box.
+void check_sides(const Frame& frame) {
   const Grid& grid = frame.grid;
+  std::size_t at_sides = 0, inside = 0;
   for (std::size_t n = 0; n < grid.size(); ++n) {
     const std::array<int, 3> at{int(n % grid.nx()), int(n / grid.nx() % grid.ny()),
                                 int(n / grid.nx() / grid.ny())};
-    for (int a = 0; a < 3; ++a)
-      if ((at[a] == 0 || at[a] + 1 == grid.nodes[a]) && frame.phi[n] <= 0)
-        throw InputError("the membrane is not closed: phi is not positive everywhere at the sides "
-                         "of the image; it must be negative inside, positive outside");
+    bool is_at_side = false;
+    for (int a = 0; a < 3; ++a) is_at_side |= at[a] == 0 || at[a] + 1 == grid.nodes[a];
+    at_sides += is_at_side;
+    inside += is_at_side && frame.phi[n] <= 0;
   }
+  if (inside == 0) return;
+  throw InputError(fmt::format(
+      "the membrane is not closed: phi is not positive everywhere at the sides of the image; it "
+      "must be negative inside, positive outside{}",
+      2 * inside > at_sides ? " (vtkImageMathematics with SetOperationToMultiplyByK() and "
+                              "SetConstantK(-1) turns the sides round)"
+                            : ", and the image must hold all of the inside"));
 }
+
+/// What is inside in a mask, where values are of a mask.
+struct Inside {
+  double value;
+  std::string inverted; ///< what to do where it is the outside
+};
+
+std::optional<Inside> inside_of_mask(const std::vector<double>& values, const Selection& selection,
+                                     std::string& remark) {
+  if (selection.label >= 0) {
+    const auto count = std::ranges::count(values, double(selection.label));
+    if (count == 0)
+      throw InputError(fmt::format("no voxel has the label {}; the image has {}", selection.label,
+                                   list_of_labels(values_in(values, values.size()))));
+    add_remark(remark, fmt::format("{} voxels of label {} are inside", count, selection.label));
+    return Inside{double(selection.label), "SetLabel() must be that of the inside"};
+  }
+  const auto two = values_in(values, 2);
+  if (two.size() != 2) return {};
+  const double low = two.begin()->first, high = two.rbegin()->first, inside = low < 0 ? low : high,
+               outside = low < 0 ? high : low;
+  add_remark(remark, fmt::format("phi is {:g} or {:g}: taken for a mask, inside where it is {:g}",
+                                 low, high, inside));
+  return Inside{inside, is_label(outside)
+                            ? fmt::format("vtkVesicleFromImage with SetLabel({:g}) takes the other "
+                                          "voxels for the inside",
+                                          outside)
+                            : "vtkImageThreshold makes one of 0 and 1"};
+}
+
+void check_nodes(const Lattice& lattice) {
+  if (std::ranges::min(lattice.nodes) < least_nodes)
+    throw InputError(fmt::format("the image has {} nodes; along each axis {} are the least",
+                                 fmt::join(lattice.nodes, " x "), least_nodes));
+}
+
+/// The fields of an image on the grid of a lattice, which may begin before the image's own.
+class Fields {
+public:
+  Fields(vtkDataSetAttributes& data, const ImageLattice& image) : data_(data), image_(image) {}
+
+  std::vector<double> optional(const char* name, const Lattice& lattice,
+                               const std::array<int, 3>& before) const {
+    vtkDataArray* array = data_.GetArray(name);
+    if (!array) return {};
+    return resample(
+        widened(image_.in_order(values_of(*array)), image_.lattice().nodes, lattice.nodes, before),
+        lattice, Interpolation::smooth);
+  }
+
+private:
+  vtkDataSetAttributes& data_;
+  const ImageLattice& image_;
+};
 
 void add_array(vtkImageData& image, const char* name, const std::vector<double>& values) {
   if (values.empty()) return;
@@ -177,25 +226,35 @@ void add_array(vtkImageData& image, const char* name, const std::vector<double>&
 
 } // namespace
 
-ImageVesicle vesicle_in(vtkImageData& image, const std::string& phi_array) {
-  const Lattice lattice = lattice_of(image);
-  const Grid grid = grid_for(lattice);
-  std::vector<double> phi = values_of(find_phi(image, phi_array));
-  const auto resampled = [&](std::vector<double> values) {
-    return resample(std::move(values), lattice, Interpolation::smooth);
-  };
-  ImageVesicle vesicle{{.grid = grid,
-                        .phi = {},
-                        .psi = resampled(optional_values(image, "psi")),
-                        .c = resampled(optional_values(image, "c"))},
-                       center_of(lattice, grid),
-                       remark_on(lattice, grid)};
-  vesicle.frame.phi = is_mask(phi) ? phi_of_mask(std::move(phi), lattice, grid, vesicle.remark)
-                                   : resampled(std::move(phi));
+ImageVesicle vesicle_in(vtkImageData& image, const Selection& selection) {
+  vtkDataSetAttributes& data = data_with(image, selection.phi_array);
+  const ImageLattice own(image, &data == image.GetCellData());
+  std::vector<double> values = own.in_order(values_of(find_phi(data, selection.phi_array)));
+  ImageVesicle vesicle;
+  const auto inside = inside_of_mask(values, selection, vesicle.remark);
+  Mask mask{own.lattice(), {}};
+  if (inside) {
+    mask = mask_where(values, inside->value, own.lattice(), inside->inverted, vesicle.remark);
+  } else {
+    if (selection.fill_cavities)
+      throw InputError("there is nothing to fill: phi is a level set, and no mask or labels");
+    check_values(values);
+    check_size(values);
+    check_nodes(own.lattice());
+  }
+  const Grid grid = grid_for(mask.lattice);
+  add_remark(vesicle.remark, remark_on(mask.lattice, grid));
+  const Fields fields(data, own);
+  vesicle.frame = {.grid = grid,
+                   .phi = {},
+                   .psi = fields.optional("psi", mask.lattice, mask.before),
+                   .c = fields.optional("c", mask.lattice, mask.before)};
+  vesicle.center = place_of(mask.lattice).center;
+  vesicle.frame.phi = inside ? phi_of(mask, selection.fill_cavities, grid, vesicle.remark)
+                             : resample(std::move(values), mask.lattice, Interpolation::smooth);
   if (vtkInformation* about = image.GetInformation(); about->Has(vtkDataObject::DATA_TIME_STEP()))
     vesicle.frame.time = about->Get(vtkDataObject::DATA_TIME_STEP());
-  check_size(vesicle.frame);
-  check_closed(vesicle.frame);
+  check_sides(vesicle.frame);
   return vesicle;
 }
 

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace lamella {
 
@@ -13,6 +14,12 @@ namespace lamella {
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// Adds to what is to be said of the data that came in.
+inline void add_remark(std::string& remark, std::string_view what) {
+  if (!remark.empty() && !what.empty()) remark += "; ";
+  remark += what;
+}
 
 /// A vesicle in an image.
 struct ImageVesicle {
@@ -26,12 +33,20 @@ struct ImageVesicle {
   }
 };
 
-/// The fields of an image, in point data of one component: phi, from the array of that name or else
-/// from the only array there is, and psi and c where there are arrays of these names. Fields with
-/// different spacings along the axes are resampled to the smallest; a phi of only two values is a
-/// mask, of which the lower is inside where it is negative, else the higher. Throws InputError
-/// where there is no closed membrane of finite values.
-ImageVesicle vesicle_in(vtkImageData& image, const std::string& phi_array);
+/// What is the inside of a vesicle in an image.
+struct Selection {
+  std::string phi_array = "phi";
+  int label = -1; ///< the value of what is inside, where it is not negative
+  bool fill_cavities = false;
+};
+
+/// The fields of an image, in point or cell data of one component: phi, from the array of that name
+/// or else from the only array there is, and psi and c where there are arrays of these names.
+/// Fields with different spacings along the axes are resampled to the smallest; a phi of only two
+/// values is a mask, of which the lower is inside where it is negative, else the higher; so is one
+/// of which a label is chosen. Throws InputError where there is no closed membrane of finite
+/// values.
+ImageVesicle vesicle_in(vtkImageData& image, const Selection& selection);
 
 /// The other way round, into arrays phi (the scalars), psi and c, with the time. The origin tells
 /// where the box has moved to.

@@ -109,9 +109,19 @@ ShapeMeasures::Phases measure_phases(const Frame& frame, const Sampled& membrane
 
 } // namespace
 
-Size size_of(const Frame& frame) {
-  const SurfaceIntegrals integrals = integrate(Sampled(frame).surface, {}, {});
-  return {integrals.area(), integrals.volume};
+std::vector<Size> sizes_of(const Frame& frame, const std::vector<int>& nearest, int sheets) {
+  const Sampled membrane(frame);
+  const SurfaceGeometry& surface = membrane.surface;
+  const ConstPoints p = surface.points();
+  std::vector<Size> sizes(sheets);
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const Vec3 normal = surface.normal(i);
+    const double w = surface.weight()[i];
+    Size& size = sizes[nearest[frame.grid.nearest({p.x[i], p.y[i], p.z[i]})]];
+    size.area += w;
+    size.volume += w * (p.x[i] * normal[0] + p.y[i] * normal[1] + p.z[i] * normal[2]) / 3;
+  }
+  return sizes;
 }
 
 ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity) {

@@ -3,6 +3,7 @@
 #include "store/frame.h"
 
 #include <optional>
+#include <vector>
 
 namespace lamella {
 
@@ -26,9 +27,11 @@ struct ShapeMeasures {
 
 /// Area and volume alone.
 struct Size {
-  double area, volume;
+  double area = 0, volume = 0;
 };
-Size size_of(const Frame& frame);
+/// Of each sheet of the membrane, where `nearest` tells the sheet next to each node; one around a
+/// cavity has a negative volume.
+std::vector<Size> sizes_of(const Frame& frame, const std::vector<int>& nearest, int sheets);
 
 ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity);
 

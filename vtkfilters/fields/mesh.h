@@ -1,11 +1,12 @@
 #pragma once
-#include "grid/grid.h"
+#include "fields/parts.h"
 
 #include <vtkPolyData.h>
 
 #include <Eigen/Core>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace lamella {
@@ -21,29 +22,42 @@ struct Mesh {
   }
 };
 
-/// The polygons and strips of a data set as triangles; points at the same place become one, and
-/// triangles without three points go. Throws InputError where there are none, or points that are
-/// not finite.
-Mesh mesh_of(vtkPolyData& surface);
+/// The polygons and strips of a data set as a closed mesh: points within 1e-6 of the extent become
+/// one, edges that others end on are divided there, triangles that are there more than once go; the
+/// remark says so. Throws InputError, with how many and where, for what encloses nothing: no
+/// triangles, points that are not finite, edges that are not shared by two triangles.
+Mesh closed_mesh_of(vtkPolyData& surface, std::string& remark);
 
-/// Throws InputError, with how many and where, for a surface that encloses nothing: with edges that
-/// are not shared by two triangles, or triangles that cross others.
-void check_closed(const Mesh& mesh);
+/// Throws InputError, with how many and where, where triangles cross others.
+void check_crossings(const Mesh& mesh);
 
 struct MeshBounds {
   Eigen::Vector3d low, high;
 };
 MeshBounds bounds_of(const Mesh& mesh);
 
-/// Of the inside of a closed mesh, however its triangles are wound; parts within parts are hollows.
-double volume_of(Mesh mesh);
-
 /// Moves the middle of a mesh's bounds to the origin and scales its longest side to a length.
 void scale(Mesh& mesh, double longest_side);
 
-/// Signed distance from a closed mesh at the nodes of a grid, negative inside, x fastest. A node is
-/// inside where a line from it crosses the mesh an odd number of times. Exact near the mesh, and to
-/// a fraction of a spacing far from it.
-std::vector<double> signed_distance(const Mesh& mesh, const Grid& grid);
+/// A closed mesh and the parts of it that hang together.
+struct PartedMesh {
+  Mesh mesh;
+  std::vector<int> part_of; ///< by triangle
+  std::vector<Part> parts;
+};
+
+/// However the triangles are wound.
+PartedMesh parted(Mesh mesh);
+
+/// Leaves out the parts that enclose less than a volume; the remark says so. May leave none.
+void drop_small_parts(PartedMesh& mesh, double least_volume, std::string& remark);
+
+/// Distances from a closed mesh at the nodes of a grid, x fastest: negative where a line from the
+/// node crosses the mesh an odd number of times. Exact within six spacings.
+struct MeshDistance {
+  std::vector<double> phi;
+  std::vector<int> nearest; ///< part
+};
+MeshDistance signed_distance(const PartedMesh& mesh, const Grid& grid);
 
 } // namespace lamella

@@ -49,6 +49,28 @@ Grid evened(const Lattice& lattice) {
   return grid;
 }
 
+std::vector<double> widened(const std::vector<double>& values, const std::array<int, 3>& from,
+                            const std::array<int, 3>& to, const std::array<int, 3>& before,
+                            double slope) {
+  std::vector<double> out;
+  if (values.empty()) return out;
+  out.reserve(std::size_t(to[0]) * to[1] * to[2]);
+  for (int k = 0; k < to[2]; ++k)
+    for (int j = 0; j < to[1]; ++j)
+      for (int i = 0; i < to[0]; ++i) {
+        const std::array<int, 3> at{i - before[0], j - before[1], k - before[2]};
+        std::array<int, 3> nearest, off;
+        for (int a = 0; a < 3; ++a) {
+          nearest[a] = std::clamp(at[a], 0, from[a] - 1);
+          off[a] = at[a] - nearest[a];
+        }
+        const std::size_t n =
+            (std::size_t(nearest[2]) * from[1] + nearest[1]) * from[0] + nearest[0];
+        out.push_back(values[n] + slope * std::hypot(off[0], off[1], off[2]));
+      }
+  return out;
+}
+
 std::vector<double> resample(std::vector<double> values, const Lattice& lattice,
                              Interpolation interpolation) {
   if (lattice.is_even() || values.empty()) return values;

@@ -20,6 +20,12 @@ struct Lattice {
 /// of the lattice.
 Grid evened(const Lattice& lattice);
 
+/// Nodal values on a wider lattice with so many nodes before the first: beyond the old ones their
+/// last values, plus a slope times the number of nodes from there.
+std::vector<double> widened(const std::vector<double>& values, const std::array<int, 3>& from,
+                            const std::array<int, 3>& to, const std::array<int, 3>& before,
+                            double slope = 0);
+
 enum class Interpolation { linear, smooth }; ///< smooth: through the six nearest nodes
 
 /// Nodal values on the evened grid. One axis after the other.

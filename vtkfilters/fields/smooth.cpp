@@ -1,14 +1,12 @@
 #include "fields/smooth.h"
 
-#include "fields/measure.h"
-#include "fields/spline_geometry.h"
+#include "grid/fourier.h"
 #include "parallel.h"
 
 #include <unsupported/Eigen/SpecialFunctions>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace lamella {
 
@@ -37,27 +35,15 @@ void blur(const Grid& grid, double width, std::vector<double>& values) {
   values = std::move(blurred);
 }
 
-void set_volume(const Grid& grid, double volume, std::vector<double>& phi) {
-  constexpr int rounds = 3; // |grad phi| is about 1: each leaves a small part
-  for (int round = 0; round < rounds; ++round) {
-    const Size size = size_of({.grid = grid, .phi = phi});
-    const double missing = (volume - size.volume) / size.area;
-    for (double& value : phi) value -= missing;
-  }
-}
-
 /// A plane edge, blurred by a Gaussian, is the normal distribution of the distance from it.
-std::vector<double> from_mask(const Grid& grid, double width, std::vector<double> share) {
+std::vector<double> from_share(const Grid& grid, double width, std::vector<double> share) {
   constexpr double least = 1e-12; // of a share: 7 standard deviations
-  const double h = grid.spacing,
-               volume = h * h * h * std::accumulate(share.begin(), share.end(), 0.0);
   blur(grid, width, share);
   parallel_for(share.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      share[i] = -width * h * Eigen::numext::ndtri(std::clamp(share[i], least, 1 - least));
+      share[i] =
+          -width * grid.spacing * Eigen::numext::ndtri(std::clamp(share[i], least, 1 - least));
   });
-  if (*std::ranges::min_element(share) >= 0) return {};
-  set_volume(grid, volume, share);
   return share;
 }
 

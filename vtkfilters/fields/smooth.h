@@ -12,12 +12,8 @@ void level_off(const Grid& grid, std::vector<double>& phi);
 /// Blurs periodic nodal values by a Gaussian whose standard deviation is so many spacings.
 void blur(const Grid& grid, double width, std::vector<double>& values);
 
-/// Adds a constant to a level set that brings the volume of its inside to a value.
-void set_volume(const Grid& grid, double volume, std::vector<double>& phi);
-
 /// A level set of slope about 1 from the share of the inside, 1 or 0 at the nodes: its edge is
-/// smoothed over `width` spacings, and it is level beyond seven of them. The volume of the inside
-/// is kept. Empty where nothing is left of it.
-std::vector<double> from_mask(const Grid& grid, double width, std::vector<double> share);
+/// smoothed over `width` spacings, and it is level beyond seven of them.
+std::vector<double> from_share(const Grid& grid, double width, std::vector<double> share);
 
 } // namespace lamella

@@ -1,9 +1,15 @@
 #include "fields/start_image.h"
 
 #include "fields/contour.h"
+#include "fields/image_lattice.h"
 #include "fields/smooth.h"
 #include "fields/spline_geometry.h"
 #include "scene/keys.h"
+
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkNew.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,48 +32,10 @@ double slope_of(const Frame& frame) {
   return sum / double(slopes.size());
 }
 
-/// Fields on a wider grid, so many nodes before the first: beyond the old ones their last values,
-/// plus the distance from there times `slope`.
-std::vector<double> widened(const std::vector<double>& values, const Grid& from, const Grid& to,
-                            const std::array<int, 3>& before, double slope) {
-  std::vector<double> out;
-  if (values.empty()) return out;
-  for (int k = 0; k < to.nz(); ++k)
-    for (int j = 0; j < to.ny(); ++j)
-      for (int i = 0; i < to.nx(); ++i) {
-        const std::array<int, 3> at{i - before[0], j - before[1], k - before[2]};
-        std::array<int, 3> nearest, off;
-        for (int a = 0; a < 3; ++a) {
-          nearest[a] = std::clamp(at[a], 0, from.nodes[a] - 1);
-          off[a] = at[a] - nearest[a];
-        }
-        out.push_back(values[from.index(nearest[0], nearest[1], nearest[2])] +
-                      slope * from.spacing * std::hypot(off[0], off[1], off[2]));
-      }
-  return out;
-}
-
-std::array<int, 3> nodes_before(const Grid& from, const Grid& to) {
-  std::array<int, 3> before;
-  for (int a = 0; a < 3; ++a) before[a] = (to.nodes[a] - from.nodes[a]) / 2;
-  return before;
-}
-
-void widen(ImageVesicle& vesicle) {
-  Frame& frame = vesicle.frame;
-  const Grid from = frame.grid;
-  const auto [to, center] = solver_place(Place{from, vesicle.center});
-  if (to == from) return;
-  const std::array<int, 3> before = nodes_before(from, to);
-  frame.grid = to;
-  frame.phi = widened(frame.phi, from, to, before, 1);
-  frame.psi = widened(frame.psi, from, to, before, 0);
-  frame.c = widened(frame.c, from, to, before, 0);
-  vesicle.center = center;
-  vesicle.remark += fmt::format("{}the box was widened from {} to {} nodes, multiples of 8",
-                                vesicle.remark.empty() ? "" : "; ", fmt::join(from.nodes, " x "),
-                                fmt::join(to.nodes, " x "));
-}
+/// Nodes on either side of those of a box.
+struct Margins {
+  std::array<int, 3> before{}, after{};
+};
 
 /// Of nodes along an axis, the next number that the solver takes.
 int solver_nodes(int nodes) {
@@ -75,47 +43,94 @@ int solver_nodes(int nodes) {
   return std::max(least, (nodes + multiple - 1) / multiple * multiple);
 }
 
-/// Throws where the solver could not measure the membrane for the sides of the box.
-void check_clearance(const Frame& frame) {
+/// That the solver needs around an image: what is asked for, and what makes a number of nodes that
+/// it takes. Throws InputError for more than it takes.
+Margins solver_margins(const std::array<int, 3>& nodes, Margins margins) {
+  const Key& key = *find_key("grid", "nodes");
+  for (int a = 0; a < 3; ++a) {
+    const int with = margins.before[a] + nodes[a] + margins.after[a],
+              more = solver_nodes(with) - with;
+    margins.before[a] += more / 2;
+    margins.after[a] += more - more / 2;
+    if (!key.range.contains(solver_nodes(with)))
+      throw InputError(fmt::format("the image has {} nodes; along each axis the solver takes {} "
+                                   "(vtkImageResample makes it coarser)",
+                                   fmt::join(nodes, " x "), allowed_text(key)));
+  }
+  return margins;
+}
+
+Place with_margins(const Place& image, const Margins& margins) {
+  Place place = image;
+  for (int a = 0; a < 3; ++a) {
+    place.grid.nodes[a] += margins.before[a] + margins.after[a];
+    place.center[a] +=
+        image.grid.origin(a) - margins.before[a] * image.grid.spacing - place.grid.origin(a);
+  }
+  return place;
+}
+
+/// That bring the inside so far from the sides of the box that the solver can measure the membrane.
+Margins clearance_of(const Frame& frame) {
   constexpr int least = 3; // spacings
   const Grid& grid = frame.grid;
+  Margins margins;
   for (std::size_t n = 0; n < grid.size(); ++n) {
+    if (!(frame.phi[n] < 0)) continue;
     const std::array<int, 3> at{int(n % grid.nx()), int(n / grid.nx() % grid.ny()),
                                 int(n / grid.nx() / grid.ny())};
-    for (int a = 0; a < 3; ++a)
-      if (frame.phi[n] < 0 && (at[a] < least || at[a] >= grid.nodes[a] - least))
-        throw InputError(fmt::format("the membrane comes within {} nodes of a side of the image "
-                                     "along {}; leave more room (vtkImageConstantPad makes some)",
-                                     least, "xyz"[a]));
+    for (int a = 0; a < 3; ++a) {
+      margins.before[a] = std::max(margins.before[a], least - at[a]);
+      margins.after[a] = std::max(margins.after[a], least - (grid.nodes[a] - 1 - at[a]));
+    }
   }
+  return margins;
+}
+
+void widen(ImageVesicle& vesicle) {
+  Frame& frame = vesicle.frame;
+  const Grid from = frame.grid;
+  const Margins margins = solver_margins(from.nodes, clearance_of(frame));
+  const auto [to, center] = with_margins(Place{from, vesicle.center}, margins);
+  if (to == from) return;
+  const auto wider = [&](const std::vector<double>& values, double slope) {
+    return widened(values, from.nodes, to.nodes, margins.before, slope);
+  };
+  frame.grid = to;
+  frame.phi = wider(frame.phi, from.spacing);
+  frame.psi = wider(frame.psi, 0);
+  frame.c = wider(frame.c, 0);
+  vesicle.center = center;
+  add_remark(vesicle.remark, fmt::format("the box was widened from {} to {} nodes, multiples of 8",
+                                         fmt::join(from.nodes, " x "), fmt::join(to.nodes, " x ")));
 }
 
 } // namespace
 
-Place solver_place(const Place& image) {
-  const Key& key = *find_key("grid", "nodes");
-  Place place = image;
-  for (int a = 0; a < 3; ++a) place.grid.nodes[a] = solver_nodes(image.grid.nodes[a]);
-  if (!std::ranges::all_of(place.grid.nodes, [&](int n) { return key.range.contains(n); }))
-    throw InputError(fmt::format("the image has {} nodes; along each axis the solver takes {} "
-                                 "(vtkImageResample makes it coarser)",
-                                 fmt::join(image.grid.nodes, " x "), allowed_text(key)));
-  const std::array<int, 3> before = nodes_before(image.grid, place.grid);
-  for (int a = 0; a < 3; ++a)
-    place.center[a] += image.grid.origin(a) - before[a] * image.grid.spacing - place.grid.origin(a);
+Place place_of(const Lattice& lattice) {
+  Place place{evened(lattice)};
+  for (int a = 0; a < 3; ++a) place.center[a] = lattice.first[a] - place.grid.origin(a);
   return place;
 }
 
-Place solver_place(const Lattice& image) {
-  Place place{evened(image)};
-  for (int a = 0; a < 3; ++a) place.center[a] = image.first[a] - place.grid.origin(a);
-  return solver_place(place);
+Place announced_place(vtkInformation& info) {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkNew<vtkImageData> image;
+  if (info.Has(Pipeline::WHOLE_EXTENT())) image->SetExtent(info.Get(Pipeline::WHOLE_EXTENT()));
+  if (info.Has(vtkDataObject::SPACING())) image->SetSpacing(info.Get(vtkDataObject::SPACING()));
+  if (info.Has(vtkDataObject::ORIGIN())) image->SetOrigin(info.Get(vtkDataObject::ORIGIN()));
+  if (info.Has(vtkDataObject::DIRECTION()))
+    image->SetDirectionMatrix(info.Get(vtkDataObject::DIRECTION()));
+  return place_of(ImageLattice(*image, false).lattice());
+}
+
+Place solver_place(const Place& image) {
+  return with_margins(image, solver_margins(image.grid.nodes, {}));
 }
 
 ImageVesicle start_of(ImageVesicle vesicle) {
   Frame& frame = vesicle.frame;
   frame.time = 0;
-  check_clearance(frame);
   const double slope = slope_of(frame);
   if (!(slope > 1e-300) || !std::isfinite(slope))
     throw InputError("phi is flat where it vanishes; it must change sign across the membrane");
