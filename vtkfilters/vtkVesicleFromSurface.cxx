@@ -22,7 +22,6 @@ namespace
 {
 constexpr double Filling = 0.7; // of the box by a surface that is scaled
 constexpr double Clearance = 3; // spacings that the solver keeps free at the sides of the box
-constexpr auto Remedy = "switch ScaleToBox on, choose more Nodes or less Smoothing";
 
 lamella::Scene GridOnly(const int nodes[3], double halfWidth)
 {
@@ -46,9 +45,14 @@ double ShortestSide(const lamella::Grid& grid)
   return grid.spacing * *std::min_element(grid.nodes.begin(), grid.nodes.end());
 }
 
+std::string RemedyFor(bool scaled)
+{
+  return fmt::format("{}choose more Nodes or less Smoothing", scaled ? "" : "switch ScaleToBox on, ");
+}
+
 /** Leaves out what the grid cannot carry; throws where that is all. */
-void DropSmallParts(
-  lamella::PartedMesh& mesh, double smoothing, const lamella::Grid& grid, std::string& remark)
+void DropSmallParts(lamella::PartedMesh& mesh, double smoothing, const lamella::Grid& grid,
+  bool scaled, std::string& remark)
 {
   const double h = grid.spacing, least = lamella::least_volume(smoothing) * h * h * h;
   double largest = 0;
@@ -63,7 +67,7 @@ void DropSmallParts(
       "the surface is too small for the grid: the largest of its parts encloses as much as a ball "
       "of radius {:.3g}, and {:.3g} is the least; {}, or, where small parts are far from it, take "
       "the largest alone (vtkPolyDataConnectivityFilter with SetExtractionModeToLargestRegion())",
-      lamella::radius_of(largest), lamella::radius_of(least), Remedy));
+      lamella::radius_of(largest), lamella::radius_of(least), RemedyFor(scaled)));
   }
 }
 
@@ -114,14 +118,15 @@ int vtkVesicleFromSurface::RequestData(
         lamella::scale(closed, Filling * ShortestSide(grid));
       }
       lamella::PartedMesh mesh = lamella::parted(std::move(closed));
-      DropSmallParts(mesh, this->Smoothing, grid, remark);
+      DropSmallParts(mesh, this->Smoothing, grid, this->ScaleToBox, remark);
       CheckFits(mesh.mesh, grid);
       this->UpdateProgress(0.2);
       auto [phi, nearest] = lamella::signed_distance(mesh, grid);
       lamella::level_off(grid, phi);
       this->UpdateProgress(0.8);
       lamella::blur(grid, this->Smoothing, phi);
-      lamella::keep_volumes(grid, mesh.parts, nearest, Remedy, phi, remark);
+      lamella::keep_volumes(
+        grid, mesh.parts, nearest, RemedyFor(this->ScaleToBox), phi, remark);
       lamella::remark(this, remark);
       lamella::fill_image(*vtkImageData::GetData(output), { .grid = grid, .phi = std::move(phi) });
     });

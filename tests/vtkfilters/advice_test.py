@@ -14,7 +14,7 @@ from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCleanPolyData, vtkPo
 from vtkmodules.vtkFiltersGeneral import vtkBooleanOperationPolyDataFilter
 from vtkmodules.vtkFiltersModeling import vtkFillHolesFilter
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkImagingCore import (vtkImageExtractComponents, vtkImageResample, vtkImageReslice,
+from vtkmodules.vtkImagingCore import (vtkImageChangeInformation, vtkImageExtractComponents, vtkImageResample, vtkImageReslice,
                                        vtkImageThreshold)
 from vtkmodules.vtkImagingMath import vtkImageMathematics
 
@@ -232,6 +232,35 @@ class Advice(unittest.TestCase):
         vesicle = lamella.vtkVesicleFromImage()
         self.assertAlmostEqual(self.volume(vesicle, filtered(finer, image)) / numpy.count_nonzero(near), 1, delta=0.03)
         self.assertEqual(lamella.measures(vesicle.GetOutput())["components"], 2)
+
+    def test_units_are_changed(self):
+        for spacing in (1e-9, 1e6):
+            image = image_of((radii(30) <= 9).astype(numpy.uint8), origin=(5 * spacing, 0, 0))
+            image.SetSpacing([spacing] * 3)
+            dynamics = lamella.vtkVesicleDynamics()
+            dynamics.SetEndTime(1e-9)
+            said = self.complaint(dynamics, image)
+            change = vtkImageChangeInformation()
+            change.SetSpacingScale(*self.number(r"SetSpacingScale\(([^)]*)\)", said))
+            change.SetOriginScale(*self.number(r"SetOriginScale\(([^)]*)\)", said))
+            dynamics = lamella.vtkVesicleDynamics()
+            dynamics.SetEndTime(1e-9)
+            dynamics.SetInputData(filtered(change, image))
+            frame = lamella.Frame(lamella.update(dynamics).GetOutput())
+            volume = numpy.count_nonzero(radii(30) <= 9) * (spacing * change.GetSpacingScale()[0])**3
+            self.assertAlmostEqual(frame.measures["V"] / volume, 1, delta=1e-3)
+
+    def test_few_thick_slices_get_smaller_voxels(self):
+        k, j, i = numpy.meshgrid(numpy.arange(7), numpy.arange(60), numpy.arange(60), indexing="ij")
+        inside = numpy.sqrt((i - 29.5)**2 + (j - 29.5)**2 + (6 * (k - 3))**2) <= 18
+        image = image_of(inside.astype(numpy.uint8))
+        image.SetSpacing(1, 1, 6)
+        said = self.complaint(lamella.vtkVesicleFromImage(), image)
+        finer = vtkImageResample()
+        finer.SetInterpolationModeToNearestNeighbor()
+        finer.SetMagnificationFactors(*self.number(r"SetMagnificationFactors\(([^)]*)\)", said))
+        self.assertAlmostEqual(self.volume(lamella.vtkVesicleFromImage(), filtered(finer, image)) / ball(18), 1,
+                               delta=0.15)
 
     def test_gaps_of_membranes_are_closed_and_filled(self):
         r = radii(48)

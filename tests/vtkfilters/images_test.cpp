@@ -361,6 +361,26 @@ TEST(Images, OfLabelsNameThem) {
   EXPECT_EQ(filled["components"], 1);
 }
 
+TEST(Images, OfLabelsMayHaveABackgroundBelowZero) {
+  const auto image = sampled<vtkShortArray>({40, 40, 40}, unit, {0, 0, 0}, [](const Vec3& p) {
+    return distance(p, {}) <= 6 ? 2 : distance(p, {}) <= 12 ? 1 : -1;
+  });
+  EXPECT_THAT(Result(image).error, HasSubstr("vtkVesicleFromImage with SetLabel(1) takes one"));
+  const Result result(image, 2);
+  ASSERT_EQ(result.error, "");
+  EXPECT_NEAR(result["V"] / voxels(image, 2), 1, 1e-5);
+}
+
+// A level set of whole numbers is none of labels.
+TEST(Images, OfWholeNumbersMayBeLevelSets) {
+  const auto image = sampled<vtkShortArray>({40, 40, 40}, unit, {}, [](const Vec3& p) {
+    return std::lround(10 * (distance(p, {}) - 12));
+  });
+  const Result result(image);
+  ASSERT_EQ(result.error + result.warning, "");
+  EXPECT_NEAR(result["V"] / (4. / 3 * pi * 12 * 12 * 12), 1, 1e-3);
+}
+
 TEST(Images, ThatMarkTheMembraneAloneAreFilled) {
   const auto whole = mask({36, 36, 36}, [](const Vec3& p) { return distance(p, {}) <= 13; });
   for (const double thickness : {1.2, 3.}) {

@@ -69,6 +69,20 @@ vtkSmartPointer<vtkPolyData> with_triangles(vtkPolyData* mesh, const auto& times
   return out;
 }
 
+/// Polygons with their points.
+vtkSmartPointer<vtkPolyData> polygons(const std::vector<Vec3>& points,
+                                      const std::vector<std::vector<vtkIdType>>& sides) {
+  auto out = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> vertices;
+  vertices->SetDataTypeToDouble();
+  for (const Vec3& p : points) vertices->InsertNextPoint(p.data());
+  vtkNew<vtkCellArray> cells;
+  for (const auto& side : sides) cells->InsertNextCell(vtkIdType(side.size()), side.data());
+  out->SetPoints(vertices);
+  out->SetPolys(cells);
+  return out;
+}
+
 /// Two meshes as one, the second one moved.
 vtkSmartPointer<vtkPolyData> both(vtkPolyData* first, vtkPolyData* second, const Vec3& by) {
   vtkNew<vtkPoints> points;
@@ -208,6 +222,11 @@ TEST(VesicleFromSurface, SaysWhatIsWrong) {
   const auto unused = mesh_of_shape(sphere(0.5), 32);
   unused->GetPoints()->InsertNextPoint(std::numeric_limits<double>::quiet_NaN(), 0, 0);
   EXPECT_EQ(error_of(vesicle_from(unused)), "");
+  EXPECT_THAT(error_of(vesicle_from(polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                                             {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}))),
+              HasSubstr("the surface is flat"));
+  EXPECT_THAT(error_of(vesicle_from(polygons({{0, 0, 0}}, {{0, 1, 2}}))),
+              HasSubstr("the surface has no point 1"));
   const auto mesh = mesh_of_shape(sphere(0.5), 32);
   const auto vesicle = vesicle_from(mesh);
   vesicle->SetNodes(50, 64, 64);
@@ -251,20 +270,6 @@ vtkSmartPointer<vtkPolyData> soup(vtkPolyData* mesh, double distance) {
   }
   auto out = vtkSmartPointer<vtkPolyData>::New();
   out->SetPoints(points);
-  out->SetPolys(cells);
-  return out;
-}
-
-/// Polygons with their points.
-vtkSmartPointer<vtkPolyData> polygons(const std::vector<Vec3>& points,
-                                      const std::vector<std::vector<vtkIdType>>& sides) {
-  auto out = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> vertices;
-  vertices->SetDataTypeToDouble();
-  for (const Vec3& p : points) vertices->InsertNextPoint(p.data());
-  vtkNew<vtkCellArray> cells;
-  for (const auto& side : sides) cells->InsertNextCell(vtkIdType(side.size()), side.data());
-  out->SetPoints(vertices);
   out->SetPolys(cells);
   return out;
 }

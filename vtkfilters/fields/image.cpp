@@ -108,20 +108,27 @@ std::string list_of_labels(const std::map<double, std::size_t>& labels) {
                      labels.size() > most ? fmt::format(" and {} more", labels.size() - most) : "");
 }
 
+/// Throws for labels.
+void check_is_no_label(const std::vector<double>& phi) {
+  constexpr std::size_t most = 1000, most_with_signs = 16; // of level sets that are whole numbers
+  if (!std::ranges::all_of(phi, [](double value) { return value == std::floor(value); })) return;
+  const bool has_signs = std::ranges::min(phi) < 0;
+  const auto labels = values_in(phi, has_signs ? most_with_signs : most);
+  if (labels.size() < 3) return;
+  const auto label = std::ranges::find_if(labels, [](const auto& one) { return one.first > 0; });
+  throw InputError(fmt::format(
+      "the image has labels in place of a level set: {}; vtkVesicleFromImage with SetLabel({:g}) "
+      "takes one of them for the inside, or, of gray values, vtkImageThreshold makes a mask",
+      list_of_labels(labels), label == labels.end() ? 0 : label->first));
+}
+
 /// Throws where a level set has no zeros.
 void check_values(const std::vector<double>& phi) {
-  constexpr std::size_t most_labels = 1000;
   const auto [least, greatest] = std::ranges::minmax(phi);
-  if (least < 0 && greatest > 0) return;
   if (least == greatest)
     throw InputError(fmt::format("there is no membrane: phi is {:g} everywhere", least));
-  const auto labels = std::ranges::all_of(phi, is_label) ? values_in(phi, most_labels)
-                                                         : decltype(values_in({}, 0))();
-  if (!labels.empty())
-    throw InputError(fmt::format(
-        "the image has labels in place of a level set: {}; vtkVesicleFromImage with SetLabel({:g}) "
-        "takes one of them for the inside, or, of gray values, vtkImageThreshold makes a mask",
-        list_of_labels(labels), std::next(labels.begin())->first));
+  check_is_no_label(phi);
+  if (least < 0 && greatest > 0) return;
   throw InputError(
       fmt::format("there is no membrane: phi goes from {:g} to {:g}, and is nowhere {}; it must be "
                   "negative inside and positive outside, or a mask of two values, which "

@@ -59,8 +59,8 @@ void check_crossings(const Mesh& mesh) {
       });
   if (found.empty()) return;
   const Vector3d& x = found.front();
-  throw InputError(fmt::format("the surface crosses itself: {} pair{} of its triangles {}, one of "
-                               "them at {}; parts that overlap are joined by "
+  throw InputError(fmt::format("the surface crosses itself, or touches itself: {} pair{} of its "
+                               "triangles {}, one of them at {}; parts that overlap are joined by "
                                "vtkBooleanOperationPolyDataFilter",
                                found.size(), found.size() == 1 ? "" : "s",
                                found.size() == 1 ? "does" : "do", place_text({x[0], x[1], x[2]})));

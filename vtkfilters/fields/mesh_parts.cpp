@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -60,6 +61,16 @@ void add_part(PartedMesh& out, const std::vector<std::vector<int>>& next_to, int
   out.parts.push_back({.volume = std::abs(volume)});
 }
 
+/// Throws where a mesh encloses nothing, to rounding.
+void check_is_not_flat(const PartedMesh& mesh) {
+  constexpr double least = 1e-12; // of the cube around it
+  const auto [low, high] = bounds_of(mesh.mesh);
+  const double side = (high - low).maxCoeff();
+  if (std::ranges::all_of(
+          mesh.parts, [&](const Part& part) { return part.volume <= least * side * side * side; }))
+    throw InputError("the surface is flat: it encloses nothing");
+}
+
 /// Whether an odd number of other parts is around a triangle of a part.
 bool is_within_odd(const PartedMesh& mesh, const TriangleTree& tree, int triangle) {
   const auto [a, b, c] = mesh.mesh.corners(triangle);
@@ -93,6 +104,7 @@ PartedMesh parted(Mesh mesh) {
       first.push_back(t);
       add_part(out, next_to, t);
     }
+  check_is_not_flat(out);
   if (first.size() == 1) return out;
   const TriangleTree tree(out.mesh);
   for (std::size_t p = 0; p < first.size(); ++p)

@@ -87,6 +87,19 @@ Margins clearance_of(const Frame& frame) {
   return margins;
 }
 
+/// Throws for a unit of length in which the solver has no such box.
+void check_unit(const Grid& grid) {
+  const Key& key = *find_key("grid", "half_width");
+  const double half_width = 0.5 * grid.spacing * std::ranges::min(grid.nodes);
+  if (key.range.contains(half_width)) return;
+  const std::string scale = fmt::format("{:.1g}", 1 / half_width);
+  throw InputError(fmt::format("half the width of the image is {:.3g}, and the solver takes {}; "
+                               "vtkImageChangeInformation with SetSpacingScale({}, {}, {}) and "
+                               "SetOriginScale({}, {}, {}) changes the unit of length",
+                               half_width, allowed_text(key), scale, scale, scale, scale, scale,
+                               scale));
+}
+
 void widen(ImageVesicle& vesicle) {
   Frame& frame = vesicle.frame;
   const Grid from = frame.grid;
@@ -137,6 +150,7 @@ ImageVesicle start_of(ImageVesicle vesicle) {
   if (slope > steepest || slope < 1 / steepest)
     for (double& phi : frame.phi) phi /= slope;
   widen(vesicle);
+  check_unit(frame.grid);
   level_off(frame.grid, frame.phi);
   return vesicle;
 }
