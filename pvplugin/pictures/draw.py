@@ -1,10 +1,10 @@
 """Draws the pictures of built-in scenes that the scene picker shows: the last frame of each, from stored runs.
 
-  for scene in $(cd data/scenes && ls | sed s/.toml//); do lamella run $scene --preset draft --no-pictures -o RUNS/$scene; done
+  for scene in $(cd data/scenes && ls | sed s/.toml//); do lamella run $scene --no-pictures -o RUNS/$scene; done
   LAMELLA_PLUGIN=.../Lamella.so pvpython draw.py RUNS
   mogrify -resize 96x96 +dither -colors 200 *.png
 
-Scenes that the draft's grid is too coarse for run without --preset draft.
+Runs with --preset draft do not do: on their grids some vesicles end otherwise.
 """
 
 import os
