@@ -17,13 +17,15 @@
  * error, the output is the last good state; its time tells. After AbortExecuteOff() an aborted run
  * goes on.
  *
- * Input: vtkImageData, of up to 512 nodes along each axis. Only its first time step is used. The
- * solver's grid has multiples of 8 nodes, equally spaced along x, y, z: other images are resampled to
- * the smallest of their spacings and widened by whole nodes, and a warning says so. Point data of one
+ * Input: vtkImageData, of up to 512 nodes along each axis, with its axes along x, y and z in any order
+ * and sign. Only its first time step is used. The solver's grid has multiples of 8 nodes, equally spaced
+ * along x, y, z: other images are resampled to the smallest of their spacings and widened by whole
+ * nodes, also where the membrane is near a side, and a warning says so. Point data, or cell data, of one
  * component each:
  * - phi (another name: SetPhiArray; an image's only array is taken whatever its name), negative
  *   inside, positive at all sides of the box. It need not be a distance, but should be smooth; or a
  *   mask of two values, inside where it is negative, else where it is larger, which is smoothed.
+ *   vtkVesicleFromImage takes labels, and masks that are inverted or of the membrane alone.
  * - psi, optional: phases, negative in Ld, positive in Lo
  * - c, optional: local stretch, where StretchModulus is not 0
  *
@@ -49,7 +51,7 @@
  *
  * T. Zhang, C. W. Wolgemuth, J. Comput. Phys. 450 (2022) 110815.
  *
- * @sa vtkVesicleSource vtkMembraneSurface vtkMembraneMeasures
+ * @sa vtkVesicleSource vtkVesicleFromImage vtkVesicleFromSurface vtkMembraneSurface
  */
 #ifndef vtkVesicleDynamics_h
 #define vtkVesicleDynamics_h
