@@ -34,8 +34,8 @@ Row RowOf(const lamella::ShapeMeasures& m, double time, vtkDataObject& about)
     { "bending_energy", m.bending_energy }, { "int_KM2", m.int_KM2 }, { "P", known("P", m.P) },
     { "sigma", known("sigma", m.sigma) }, { "A", m.area }, { "V", m.volume },
     { "v", m.reduced_volume }, { "Da", m.area_difference },
-    { "components", static_cast<double>(m.components) },
-    { "genus", static_cast<double>(m.genus) }, { "neck_radius", m.neck_radius } };
+    { "components", static_cast<double>(m.components) }, { "genus", static_cast<double>(m.genus) },
+    { "neck_radius", m.neck_radius } };
   if (m.phases)
   {
     row.insert(row.end(),
@@ -66,7 +66,8 @@ void Append(vtkTable& table, const Row& row)
   }
   else if (static_cast<std::size_t>(table.GetNumberOfColumns()) != row.size())
   {
-    throw lamella::InputError("phases, and terms of the energy, must be there at all times or at none");
+    throw lamella::InputError(
+      "phases, and terms of the energy, must be there at all times or at none");
   }
   vtkIdType index = 0;
   for (const auto& [name, value] : row)

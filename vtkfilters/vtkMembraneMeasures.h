@@ -86,12 +86,12 @@ protected:
   ~vtkMembraneMeasures() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
-  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
   vtkMembraneMeasures(const vtkMembraneMeasures&) = delete;

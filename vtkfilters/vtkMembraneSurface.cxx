@@ -39,9 +39,8 @@ constexpr int LeastRefinement = 2, MostRefinement = 4; // beyond it the shape is
 
 Frame Refined(const Frame& frame, int factor)
 {
-  return factor == 1
-    ? frame
-    : lamella::refine(lamella::crop(frame, Margin * frame.grid.spacing), factor);
+  return factor == 1 ? frame
+                     : lamella::refine(lamella::crop(frame, Margin * frame.grid.spacing), factor);
 }
 
 /** What keeps the area of facets close to that of the membrane. */
@@ -134,7 +133,8 @@ vtkSmartPointer<vtkPolyData> ExactSurface(
   const LevelSet phi = lamella::fitted(frame.grid, frame.phi);
   const Frame fine = Refined(frame, refinement ? refinement : SuitableRefinement(frame, phi));
   const auto mesh = lamella::contour(fine);
-  const SplineGeometry geometry = lamella::move_onto(phi, *mesh->GetPoints(), multipliers.has_value());
+  const SplineGeometry geometry =
+    lamella::move_onto(phi, *mesh->GetPoints(), multipliers.has_value());
   const lamella::Elasticity elasticity = lamella::elasticity_of(about, otherwise);
   AddNormals(*mesh, geometry);
   lamella::add_fields(*mesh, fine);
@@ -144,8 +144,8 @@ vtkSmartPointer<vtkPolyData> ExactSurface(
   if (multipliers)
   {
     AddVelocity(*mesh, geometry,
-      lamella::normal_velocity(frame, phi, lamella::forces_of(about, frame), *multipliers,
-        *mesh->GetPoints(), geometry));
+      lamella::normal_velocity(
+        frame, phi, lamella::forces_of(about, frame), *multipliers, *mesh->GetPoints(), geometry));
   }
   return mesh;
 }
@@ -190,8 +190,8 @@ int vtkMembraneSurface::RequestData(
       const auto [frame, center, remark] = lamella::vesicle_in(*image, { this->PhiArray });
       lamella::remark(this, remark);
       const auto mesh = this->ComputeCurvatures
-        ? ExactSurface(frame, this->Refinement, *image,
-            { this->BendingModulus, this->SpontaneousCurvature })
+        ? ExactSurface(
+            frame, this->Refinement, *image, { this->BendingModulus, this->SpontaneousCurvature })
         : LinearSurface(frame, this->Refinement);
       AddPhase(*mesh);
       Move(*mesh->GetPoints(), center);

@@ -98,8 +98,8 @@ protected:
   ~vtkMembraneSurface() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
   vtkMembraneSurface(const vtkMembraneSurface&) = delete;

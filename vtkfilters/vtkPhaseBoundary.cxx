@@ -96,14 +96,13 @@ void AddGeometry(vtkPolyData& lines, const lamella::PhaseBoundary& boundary)
     lines, "arc_length", 1, boundary, [](const Point& p, int) { return p.s; });
 }
 
-std::string PlacesText(
-  const lamella::PhaseBoundary& boundary, const lamella::ImageVesicle& vesicle)
+std::string PlacesText(const lamella::PhaseBoundary& boundary, const lamella::ImageVesicle& vesicle)
 {
   std::string text;
   for (const Eigen::Vector3d& x : boundary.unresolved())
   {
-    text += (text.empty() ? "" : ", ") +
-      lamella::place_text(vesicle.in_image({ x[0], x[1], x[2] }));
+    text +=
+      (text.empty() ? "" : ", ") + lamella::place_text(vesicle.in_image({ x[0], x[1], x[2] }));
   }
   return text;
 }
@@ -121,7 +120,8 @@ int vtkPhaseBoundary::RequestData(
   return lamella::reporting(this,
     [&]
     {
-      const auto vesicle = lamella::vesicle_in(*vtkImageData::GetData(input[0]), { this->PhiArray });
+      const auto vesicle =
+        lamella::vesicle_in(*vtkImageData::GetData(input[0]), { this->PhiArray });
       lamella::remark(this, vesicle.remark);
       if (vesicle.frame.psi.empty())
       {

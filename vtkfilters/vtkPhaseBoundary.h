@@ -68,8 +68,8 @@ protected:
   ~vtkPhaseBoundary() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
   vtkPhaseBoundary(const vtkPhaseBoundary&) = delete;

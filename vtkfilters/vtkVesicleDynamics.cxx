@@ -83,7 +83,8 @@ lamellaChoiceProperty(vtkVesicleDynamics, VolumeConstraint, "volume", "constrain
 lamellaRampProperty(vtkVesicleDynamics, Volume, volume.ramp);
 lamellaProperty(vtkVesicleDynamics, VolumeRate, double, volume.ramp.rate);
 lamellaProperty(vtkVesicleDynamics, VolumePressure, double, volume.pressure);
-lamellaChoiceProperty(vtkVesicleDynamics, AreaDifferenceConstraint, "area_difference", "constraint");
+lamellaChoiceProperty(
+  vtkVesicleDynamics, AreaDifferenceConstraint, "area_difference", "constraint");
 lamellaRampProperty(vtkVesicleDynamics, AreaDifference, area_difference.ramp);
 lamellaProperty(vtkVesicleDynamics, AreaDifferenceRate, double, area_difference.ramp.rate);
 lamellaProperty(vtkVesicleDynamics, AreaDifferenceMultiplier, double, area_difference.multiplier);
@@ -174,8 +175,7 @@ int vtkVesicleDynamics::RequestData(
       this->BeginRunIfNeeded(*vtkImageData::GetData(input[0]));
       lamella::offer_grid(*output->GetInformationObject(0), this->Current->Grid(),
         this->Current->Center); // masks may have needed more room than was announced
-      lamella::serve(
-        this, this->Current->Trajectory, this->Current->Center, *request, *output);
+      lamella::serve(this, this->Current->Trajectory, this->Current->Center, *request, *output);
     });
 }
 

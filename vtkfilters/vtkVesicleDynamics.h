@@ -328,12 +328,12 @@ protected:
   ~vtkVesicleDynamics() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
-  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
   vtkVesicleDynamics(const vtkVesicleDynamics&) = delete;

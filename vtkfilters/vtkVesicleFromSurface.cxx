@@ -47,7 +47,8 @@ double ShortestSide(const lamella::Grid& grid)
 
 std::string RemedyFor(bool scaled)
 {
-  return fmt::format("{}choose more Nodes or less Smoothing", scaled ? "" : "switch ScaleToBox on, ");
+  return fmt::format(
+    "{}choose more Nodes or less Smoothing", scaled ? "" : "switch ScaleToBox on, ");
 }
 
 /** Leaves out what the grid cannot carry; throws where that is all. */
@@ -125,8 +126,7 @@ int vtkVesicleFromSurface::RequestData(
       lamella::level_off(grid, phi);
       this->UpdateProgress(0.8);
       lamella::blur(grid, this->Smoothing, phi);
-      lamella::keep_volumes(
-        grid, mesh.parts, nearest, RemedyFor(this->ScaleToBox), phi, remark);
+      lamella::keep_volumes(grid, mesh.parts, nearest, RemedyFor(this->ScaleToBox), phi, remark);
       lamella::remark(this, remark);
       lamella::fill_image(*vtkImageData::GetData(output), { .grid = grid, .phi = std::move(phi) });
     });

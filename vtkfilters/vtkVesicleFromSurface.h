@@ -67,10 +67,10 @@ protected:
   ~vtkVesicleFromSurface() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
   vtkVesicleFromSurface(const vtkVesicleFromSurface&) = delete;

@@ -2,9 +2,9 @@
 
 #include "fields/image.h"
 #include "fields/report.h"
+#include "fields/run_files.h"
 #include "fields/serve.h"
 #include "fields/state_data.h"
-#include "fields/run_files.h"
 #include "scene/scene_toml.h"
 
 #include <vtkImageData.h>
@@ -79,8 +79,7 @@ int vtkVesicleRunReader::RequestInformation(
       times.push_back(entry.time);
     }
     lamella::offer_times(*output, times);
-    lamella::offer_grid(
-      *output->GetInformationObject(0), lamella::read_scene(run.scene).grid());
+    lamella::offer_grid(*output->GetInformationObject(0), lamella::read_scene(run.scene).grid());
   }
   catch (const std::exception&)
   {
@@ -106,11 +105,11 @@ int vtkVesicleRunReader::RequestData(
       }
       const lamella::Scene scene = lamella::read_scene(run.scene);
       const auto& [file, time] = FrameAt(run, lamella::requested_time(*request, *output));
-      lamella::fill_state(*vtkImageData::GetData(output, 0), lamella::read_frame(file),
-        RowAt(history, time), scene);
+      lamella::fill_state(
+        *vtkImageData::GetData(output, 0), lamella::read_frame(file), RowAt(history, time), scene);
       lamella::fill_history(*vtkTable::GetData(output, 1), history, time * (1 + Rounding));
-      lamella::fill_events(*vtkTable::GetData(output, 2), lamella::read_events(run.events),
-        time * (1 + Rounding));
+      lamella::fill_events(
+        *vtkTable::GetData(output, 2), lamella::read_events(run.events), time * (1 + Rounding));
     });
 }
 

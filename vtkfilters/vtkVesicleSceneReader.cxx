@@ -114,8 +114,7 @@ int vtkVesicleSceneReader::RequestData(
       if (!this->Current || this->Current->Parameters != lamella::to_toml(scene))
       {
         this->Current.reset();
-        this->Current =
-          std::make_unique<Run>(scene, lamella::until_aborted(this, scene.end_time));
+        this->Current = std::make_unique<Run>(scene, lamella::until_aborted(this, scene.end_time));
       }
       lamella::serve(this, this->Current->Trajectory, {}, *request, *output);
     });

@@ -196,10 +196,10 @@ protected:
   vtkVesicleSource();
   ~vtkVesicleSource() override;
 
-  int RequestInformation(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
   vtkVesicleSource(const vtkVesicleSource&) = delete;

@@ -163,8 +163,7 @@ void vtkVesiclePipeline::UpdateRun(double time)
 void vtkVesiclePipeline::UpdateRunForAWhile()
 {
   vtkInformation* info = this->GetRun()->GetOutputInformation(0);
-  const double end =
-    info->Has(Pipeline::TIME_RANGE()) ? info->Get(Pipeline::TIME_RANGE())[1] : 0;
+  const double end = info->Has(Pipeline::TIME_RANGE()) ? info->Get(Pipeline::TIME_RANGE())[1] : 0;
   this->SliceEnd = Clock::now() + Slice;
   this->UpdateRun(end);
   const double time = TimeOf(*this->GetRun()->GetOutputDataObject(0));

@@ -59,10 +59,10 @@ protected:
   virtual void Prepare() {}
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** input,
-    vtkInformationVector* output) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
 private:
   vtkVesiclePipeline(const vtkVesiclePipeline&) = delete;
@@ -75,8 +75,8 @@ private:
   void Show(vtkImageData& image, vtkInformationVector& output);
 
   bool Live = false;
-  bool Ended = false;        // a live run
-  double LastTime = -1;      // of a live run
+  bool Ended = false;         // a live run
+  double LastTime = -1;       // of a live run
   Clock::time_point SliceEnd; // of a live update
   vtkNew<vtkMembraneSurface> Membrane;
   vtkNew<vtkPhaseBoundary> Boundary;

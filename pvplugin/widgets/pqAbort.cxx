@@ -76,14 +76,14 @@ pqAbort::pqAbort(QObject* parent)
   {
     this->watch(source);
   }
-  QObject::connect(ProgressManager(), &pqProgressManager::abort, this, [this] { this->Aborted = true; });
+  QObject::connect(
+    ProgressManager(), &pqProgressManager::abort, this, [this] { this->Aborted = true; });
 }
 
 void pqAbort::watch(pqPipelineSource* source)
 {
   auto* algorithm = vtkAlgorithm::SafeDownCast(source->getProxy()->GetClientSideObject());
-  if (algorithm &&
-    (algorithm->IsA("vtkVesiclePipeline") || algorithm->IsA("vtkVesicleDynamics")))
+  if (algorithm && (algorithm->IsA("vtkVesiclePipeline") || algorithm->IsA("vtkVesicleDynamics")))
   {
     pqCoreUtilities::connect(
       algorithm, vtkCommand::ProgressEvent, this, SLOT(onProgress(vtkObject*)));

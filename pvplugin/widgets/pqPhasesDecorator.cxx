@@ -17,8 +17,7 @@ pqPhasesDecorator::pqPhasesDecorator(vtkPVXMLElement* xml, pqPropertyWidget* par
   vtkSMProxy* filter = parent->proxy();
   if (auto* input = vtkSMPropertyHelper(filter, "Input").GetAsProxy())
   {
-    pqCoreUtilities::connect(
-      input, vtkCommand::UpdateDataEvent, this, SIGNAL(visibilityChanged()));
+    pqCoreUtilities::connect(input, vtkCommand::UpdateDataEvent, this, SIGNAL(visibilityChanged()));
   }
 }
 

@@ -1,9 +1,9 @@
 #include "widgets/pqVesicleActions.h"
 
 #include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqObjectBuilder.h>
-#include <pqApplicationCore.h>
 #include <pqOutputPort.h>
 #include <pqPipelineSource.h>
 #include <pqView.h>
@@ -120,8 +120,7 @@ pqVesicleActions::pqVesicleActions(QObject* parent)
   QObject::connect(this->Curvature, &QAction::triggered, this, [this] { this->colorBy("K_M"); });
 
   auto* active = &pqActiveObjects::instance();
-  QObject::connect(
-    active, &pqActiveObjects::dataUpdated, this, &pqVesicleActions::updateStates);
+  QObject::connect(active, &pqActiveObjects::dataUpdated, this, &pqVesicleActions::updateStates);
   QObject::connect(active, &pqActiveObjects::sourceChanged, this, &pqVesicleActions::updateStates);
   QObject::connect(active, &pqActiveObjects::viewChanged, this, &pqVesicleActions::updateStates);
   this->updateStates();
@@ -147,8 +146,8 @@ void pqVesicleActions::plotHistory()
     "XYChartView", history->getServer());
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
   controller->AssignViewToLayout(view->getViewProxy());
-  vtkSMProxy* chart = controller->Show(
-    history->getSourceProxy(), history->getPortNumber(), view->getViewProxy());
+  vtkSMProxy* chart =
+    controller->Show(history->getSourceProxy(), history->getPortNumber(), view->getViewProxy());
 
   ShowEnergy(*chart, *view->getViewProxy());
   view->resetDisplay();

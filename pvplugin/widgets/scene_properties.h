@@ -3,7 +3,8 @@
 
 class vtkSMProxy;
 
-namespace lamella {
+namespace lamella
+{
 
 /// Gives the properties of a Vesicle proxy the values of a scene.
 void set_properties(vtkSMProxy& vesicle, Scene scene);

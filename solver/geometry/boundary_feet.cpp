@@ -74,8 +74,7 @@ BoundaryFeet::Foot foot_at(const PhaseBoundary& boundary, int nearest, const Vec
   const double chord = away.norm(), least = 0.5 * chord;
   const double a = away.dot(N_foot) / std::max(std::abs(away.dot(n)), least + 1e-300),
                b = away.dot(N) / std::max((away - away.dot(N) * N).norm(), least + 1e-300);
-  foot.distance =
-      std::copysign(chord * (1 + (a * a + b * b) / 15 - a * b / 30), away.dot(n));
+  foot.distance = std::copysign(chord * (1 + (a * a + b * b) / 15 - a * b / 30), away.dot(n));
   return foot;
 }
 

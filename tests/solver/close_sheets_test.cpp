@@ -60,8 +60,8 @@ std::pair<Errors, Errors> errors_of(const Grid& grid, const AreaVolume& exact, P
 // -----------------------------------------------------------------------------------------------
 // quadrature
 
-/// A long Cassini surface about the x axis, (|x|^2 + a^2)^2 - 4 a^2 x^2 = b^4, whose neck has a radius
-/// of `neck` and is about as sharply bent along the axis.
+/// A long Cassini surface about the x axis, (|x|^2 + a^2)^2 - 4 a^2 x^2 = b^4, whose neck has a
+/// radius of `neck` and is about as sharply bent along the axis.
 struct LongNeck {
   double neck, a = 10;
 

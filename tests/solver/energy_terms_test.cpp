@@ -22,7 +22,8 @@ Scene sphere_with_everything(double radius) {
   scene.domains = {.kind = DomainsKind::cap, .area_fraction = 0.25};
   scene.ld = {2, -1, 3};
   scene.lo = {4, 0, 1};
-  scene.line = {.tension = 5, .geodesic_modulus = 0.5, .torsion_modulus = 0.25, .normal_modulus = 2};
+  scene.line = {
+      .tension = 5, .geodesic_modulus = 0.5, .torsion_modulus = 0.25, .normal_modulus = 2};
   scene.stretch.modulus = 10;
   scene.volume.constraint = Constraint::free;
   scene.volume.pressure = -7;

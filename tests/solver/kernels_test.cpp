@@ -59,8 +59,15 @@ TEST_P(EachKernels, FindCurvaturesOfAnEllipsoid) {
   std::vector<double> out[8];
   for (auto& o : out) o.resize(n);
   GetParam()->jets(q.phi.view(), n, p.points(),
-                   {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(),
-                    out[5].data(), out[6].data(), out[7].data(), {}});
+                   {out[0].data(),
+                    out[1].data(),
+                    out[2].data(),
+                    out[3].data(),
+                    out[4].data(),
+                    out[5].data(),
+                    out[6].data(),
+                    out[7].data(),
+                    {}});
   for (std::size_t i = 0; i < n; i++) {
     const double a2 = q.a * q.a, b2 = q.b * q.b, c2 = q.c * q.c;
     const double s =
@@ -84,8 +91,15 @@ TEST_P(EachKernels, AgreeWithEachOther) {
     std::vector<double> out[8];
     for (auto& o : out) o.resize(n);
     k.jets(q.phi.view(), n, p.points(),
-           {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(),
-            out[5].data(), out[6].data(), out[7].data(), {}});
+           {out[0].data(),
+            out[1].data(),
+            out[2].data(),
+            out[3].data(),
+            out[4].data(),
+            out[5].data(),
+            out[6].data(),
+            out[7].data(),
+            {}});
     return out[7];
   };
   const std::vector<double> mine = lap_KM(*GetParam()),
