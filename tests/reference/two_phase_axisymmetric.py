@@ -149,7 +149,7 @@ class Problem:
 
     def gradient(self, y):
         """Of E - P (V - V0) + sum sigma_i (A_i - A_i0) + f_r (r_Ld - r_Lo) + f_psi (psi_Ld + psi_Lo - pi)."""
-        k, n = self.case, self.n
+        k = self.case
         c0, l0, c1, l1, m = self.split(y)
         P, s0, s1, f_r, f_psi = (m[..., j] for j in range(5))
         psib = c0.sum(-1)
