@@ -3,6 +3,7 @@
 #include "fields/image.h"
 #include "fields/measure.h"
 #include "fields/report.h"
+#include "fields/update_round.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkInformation.h>
@@ -77,7 +78,11 @@ void Append(vtkTable& table, const Row& row)
 }
 }
 
-vtkMembraneMeasures::vtkMembraneMeasures() = default;
+vtkMembraneMeasures::vtkMembraneMeasures()
+  : Unfinished(std::make_unique<lamella::Unfinished>())
+{
+}
+
 vtkMembraneMeasures::~vtkMembraneMeasures() = default;
 
 int vtkMembraneMeasures::FillInputPortInformation(int, vtkInformation* info)
@@ -109,6 +114,10 @@ int vtkMembraneMeasures::RequestUpdateExtent(
   {
     info->Set(Pipeline::UPDATE_EXTENT(), info->Get(Pipeline::WHOLE_EXTENT()), 6);
   }
+  if (this->Next == 0)
+  {
+    this->AbortExecute = 0; // an abort was of the update that it stopped
+  }
   if (this->Next < this->Times.size())
   {
     info->Set(Pipeline::UPDATE_TIME_STEP(), this->Times[this->Next]);
@@ -124,7 +133,7 @@ int vtkMembraneMeasures::RequestData(
   {
     this->Collected = vtkSmartPointer<vtkTable>::New();
   }
-  bool goesOn = false;
+  bool goesOn = false, aborted = false;
   lamella::reporting(this,
     [&]
     {
@@ -140,9 +149,12 @@ int vtkMembraneMeasures::RequestData(
       Append(*this->Collected, RowOf(measures, vesicle.frame.time, *image));
       this->UpdateProgress(
         static_cast<double>(this->Next + 1) / static_cast<double>(this->Times.size() + 1));
-      goesOn = this->Next + 1 < this->Times.size() && !this->GetAbortExecute();
+      const bool more = this->Next + 1 < this->Times.size();
+      aborted = more && this->AbortExecute;
+      goesOn = more && !aborted;
       vtkTable::GetData(output)->ShallowCopy(this->Collected);
     });
+  this->Unfinished->set(aborted);
   if (goesOn)
   {
     ++this->Next;
@@ -155,6 +167,11 @@ int vtkMembraneMeasures::RequestData(
     request->Remove(Pipeline::CONTINUE_EXECUTING());
   }
   return 1;
+}
+
+vtkMTimeType vtkMembraneMeasures::GetMTime()
+{
+  return this->Unfinished->modification_time(this->Superclass::GetMTime());
 }
 
 void vtkMembraneMeasures::PrintSelf(ostream& os, vtkIndent indent)

@@ -43,6 +43,8 @@
  * | pressure_energy, area_difference_energy | of a given pressure, or multiplier |
  * | film_energy | of the disjoining pressure of films |
  *
+ * Aborted, the table has the rows so far; the next update measures anew.
+ *
  * @sa vtkMembraneSurface vtkVesicleDynamics
  */
 #ifndef vtkMembraneMeasures_h
@@ -53,8 +55,14 @@
 #include <vtkSmartPointer.h> // for the rows so far
 #include <vtkTableAlgorithm.h>
 
+#include <memory>
 #include <string>
 #include <vector>
+
+namespace lamella
+{
+class Unfinished;
+}
 
 class VTKLAMELLAFILTERS_EXPORT vtkMembraneMeasures : public vtkTableAlgorithm
 {
@@ -81,6 +89,9 @@ public:
   vtkGetMacro(SpontaneousCurvature, double);
   ///@}
 
+  /** Later than the last update for as long as that was aborted. */
+  vtkMTimeType GetMTime() override;
+
 protected:
   vtkMembraneMeasures();
   ~vtkMembraneMeasures() override;
@@ -104,6 +115,7 @@ private:
   std::vector<double> Times;           // of the input
   std::size_t Next = 0;                // among them
   vtkSmartPointer<vtkTable> Collected; // rows of those before
+  std::unique_ptr<lamella::Unfinished> Unfinished;
 };
 
 #endif

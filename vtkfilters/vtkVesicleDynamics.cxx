@@ -102,7 +102,8 @@ lamellaProperty(vtkVesicleDynamics, MaxTimeStep, double, numerics.max_time_step)
 lamellaProperty(vtkVesicleDynamics, OutputFrames, int, output.frames);
 
 vtkVesicleDynamics::vtkVesicleDynamics()
-  : Scene(std::make_unique<lamella::Scene>())
+  : Scene(std::make_unique<lamella::PropertyScene>())
+  , Round(std::make_unique<lamella::UpdateRound>())
 {
   this->SetNumberOfOutputPorts(3);
 }
@@ -137,6 +138,7 @@ int vtkVesicleDynamics::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
+  this->AbortExecute = 0; // an abort was of the update that it stopped
   vtkInformation* info = input[0]->GetInformationObject(0);
   if (info->Has(Pipeline::WHOLE_EXTENT()))
   {
@@ -169,14 +171,20 @@ void vtkVesicleDynamics::BeginRunIfNeeded(vtkImageData& image)
 int vtkVesicleDynamics::RequestData(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  return lamella::reporting(this,
-    [&]
+  return lamella::answer(this, *this->Round, *request, *output,
+    [&](const lamella::TimeRequest& wanted)
     {
+      lamella::check_choices(*this->Scene);
       this->BeginRunIfNeeded(*vtkImageData::GetData(input[0]));
       lamella::offer_grid(*output->GetInformationObject(0), this->Current->Grid(),
         this->Current->Center); // masks may have needed more room than was announced
-      lamella::serve(this, this->Current->Trajectory, this->Current->Center, *request, *output);
+      lamella::serve(this, this->Current->Trajectory, this->Current->Center, wanted, *output);
     });
+}
+
+vtkMTimeType vtkVesicleDynamics::GetMTime()
+{
+  return this->Round->modification_time(this->Superclass::GetMTime());
 }
 
 void vtkVesicleDynamics::PrintSelf(ostream& os, vtkIndent indent)

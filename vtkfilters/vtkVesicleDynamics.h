@@ -14,8 +14,9 @@
  * the result starts the run anew, and nothing else does.
  *
  * Progress is that towards the time asked for. Aborted, or where the run cannot go on, which is an
- * error, the output is the last good state; its time tells. After AbortExecuteOff() an aborted run
- * goes on.
+ * error, the outputs are those of the last good state; its time, in the information (DATA_TIME_STEP)
+ * and the field data t, tells. AbortExecuteOn() ends the update that goes on, for all output ports
+ * that ask for its time; the next update goes on from there.
  *
  * Input: vtkImageData, of up to 512 nodes along each axis, with its axes along x, y and z in any order
  * and sign. Only its first time step is used. The solver's grid has multiples of 8 nodes, equally spaced
@@ -41,11 +42,11 @@
  * `membrane.bending_modulus`, `membrane.spontaneous_curvature`; with phases those of `ld.`, `lo.` and
  * `line.`; with local stretch and films those of `stretch.` and `contact.`.
  *
- * Output 1: vtkTable, the history until the time of output 0: a row for the start and every step of
- * the run, with the columns of history.csv (docs/command-line.md), all of them double. Steps beyond
- * the last time step, towards a time between two, have no rows.
+ * Output 1: vtkTable, the history as far as the run was computed, whatever the time of output 0: a row
+ * for the start and every step, with the columns of history.csv (docs/command-line.md), all of them
+ * double. Steps from a time step towards a time between two have no rows.
  *
- * Output 2: vtkTable, the events until the time of output 0, a row each, with the columns of events.csv:
+ * Output 2: vtkTable, the events that the run had so far, a row each, with the columns of events.csv:
  * `kind` is text (fission, rupture, fusion, vanished, recentred, domains_merged, domain_parted,
  * domain_vanished, sharp, thin_inside, thin_outside), all others double; (`x`, `y`, `z`) is the place.
  *
@@ -65,7 +66,8 @@
 
 namespace lamella
 {
-struct Scene;
+struct PropertyScene;
+class UpdateRound;
 }
 
 class VTKLAMELLAFILTERS_EXPORT vtkVesicleDynamics : public vtkImageAlgorithm
@@ -323,6 +325,9 @@ public:
   int GetOutputFrames();
   ///@}
 
+  /** Later than the last update for as long as that was aborted. */
+  vtkMTimeType GetMTime() override;
+
 protected:
   vtkVesicleDynamics();
   ~vtkVesicleDynamics() override;
@@ -343,8 +348,9 @@ private:
   void BeginRunIfNeeded(vtkImageData& image);
 
   std::string PhiArray = "phi";
-  std::unique_ptr<lamella::Scene> Scene;
+  std::unique_ptr<lamella::PropertyScene> Scene;
   std::unique_ptr<Run> Current;
+  std::unique_ptr<lamella::UpdateRound> Round;
 };
 
 #endif

@@ -104,12 +104,12 @@ int vtkVesicleRunReader::RequestData(
         throw lamella::InputError(run.history.string() + ": the history has no rows");
       }
       const lamella::Scene scene = lamella::read_scene(run.scene);
-      const auto& [file, time] = FrameAt(run, lamella::requested_time(*request, *output));
+      const auto& [file, time] =
+        FrameAt(run, lamella::valid_time(lamella::requested_time(*request, *output)));
       lamella::fill_state(
         *vtkImageData::GetData(output, 0), lamella::read_frame(file), RowAt(history, time), scene);
-      lamella::fill_history(*vtkTable::GetData(output, 1), history, time * (1 + Rounding));
-      lamella::fill_events(
-        *vtkTable::GetData(output, 2), lamella::read_events(run.events), time * (1 + Rounding));
+      lamella::fill_history(*vtkTable::GetData(output, 1), history);
+      lamella::fill_events(*vtkTable::GetData(output, 2), lamella::read_events(run.events));
     });
 }
 

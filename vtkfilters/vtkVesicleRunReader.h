@@ -8,8 +8,8 @@
  *
  * Output 0: vtkImageData with phi, psi and c as stored, and field data as of vtkVesicleDynamics: the
  * measures of the state and the parameters of the membrane.
- * Output 1: vtkTable, the history until that time, a row for the start and every step.
- * Output 2: vtkTable, the events until that time, as of vtkVesicleDynamics.
+ * Output 1: vtkTable, the whole history as stored, a row for the start and every step.
+ * Output 2: vtkTable, all events, as of vtkVesicleDynamics.
  *
  * A file that is missing or damaged is an error that names it.
  *

@@ -18,17 +18,18 @@ vtkStandardNewMacro(vtkVesicleSceneReader);
 class vtkVesicleSceneReader::Run
 {
 public:
-  Run(const lamella::Scene& scene, const lamella::Trajectory::GoOn& goOn)
+  explicit Run(const lamella::Scene& scene)
     : Parameters(lamella::to_toml(scene))
-    , Trajectory(scene, lamella::open_start(scene, goOn))
+    , Scene(scene)
   {
   }
 
   std::string Parameters;
-  lamella::Trajectory Trajectory;
+  lamella::SceneRun Scene;
 };
 
 vtkVesicleSceneReader::vtkVesicleSceneReader()
+  : Round(std::make_unique<lamella::UpdateRound>())
 {
   this->SetNumberOfInputPorts(0);
   this->SetNumberOfOutputPorts(3);
@@ -104,20 +105,36 @@ int vtkVesicleSceneReader::RequestInformation(
   return 1;
 }
 
+int vtkVesicleSceneReader::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  this->AbortExecute = 0; // an abort was of the update that it stopped
+  return 1;
+}
+
 int vtkVesicleSceneReader::RequestData(
   vtkInformation* request, vtkInformationVector**, vtkInformationVector* output)
 {
-  return lamella::reporting(this,
-    [&]
+  return lamella::answer(this, *this->Round, *request, *output,
+    [&](const lamella::TimeRequest& wanted)
     {
       const lamella::Scene scene = this->Open();
       if (!this->Current || this->Current->Parameters != lamella::to_toml(scene))
       {
-        this->Current.reset();
-        this->Current = std::make_unique<Run>(scene, lamella::until_aborted(this, scene.end_time));
+        this->Current = std::make_unique<Run>(scene);
       }
-      lamella::serve(this, this->Current->Trajectory, {}, *request, *output);
+      lamella::Trajectory* trajectory = this->Current->Scene.begin(
+        wanted.begins ? lamella::until_aborted(this, scene.end_time) : wanted.go_on);
+      if (trajectory)
+      {
+        lamella::serve(this, *trajectory, {}, wanted, *output);
+      }
     });
+}
+
+vtkMTimeType vtkVesicleSceneReader::GetMTime()
+{
+  return this->Round->modification_time(this->Superclass::GetMTime());
 }
 
 void vtkVesicleSceneReader::PrintSelf(ostream& os, vtkIndent indent)

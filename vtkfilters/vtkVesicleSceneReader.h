@@ -5,7 +5,7 @@
  * Opens a scene (.toml, docs/scene-format.md), or one of those that are built in, and gives its states
  * as vtkVesicleDynamics does: at the scene's stored times and any time between, computed when they
  * are asked for and kept. They are those that `lamella run` stores. A scene that starts from the end
- * of a built-in one runs that first.
+ * of a built-in one runs that first; aborted on the way there, the outputs are empty.
  *
  * Output 0: vtkImageData with phi, psi and c; output 1: vtkTable, the history; output 2:
  * vtkTable, the events. Arrays, field data, progress, aborting and errors are those of
@@ -28,6 +28,7 @@
 namespace lamella
 {
 struct Scene;
+class UpdateRound;
 }
 
 class VTKLAMELLAFILTERS_EXPORT vtkVesicleSceneReader : public vtkImageAlgorithm
@@ -61,12 +62,17 @@ public:
   /** Whether a file is a valid scene: 1 or 0. */
   static int CanReadFile(const char* name);
 
+  /** Later than the last update for as long as that was aborted. */
+  vtkMTimeType GetMTime() override;
+
 protected:
   vtkVesicleSceneReader();
   ~vtkVesicleSceneReader() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
@@ -82,6 +88,7 @@ private:
   std::string SceneText;
   std::vector<std::string> Overrides;
   std::unique_ptr<Run> Current;
+  std::unique_ptr<lamella::UpdateRound> Round;
 };
 
 #endif

@@ -61,7 +61,7 @@ int vtkVesicleSource::GetNumberOfDomains()
 }
 
 vtkVesicleSource::vtkVesicleSource()
-  : Scene(std::make_unique<lamella::Scene>())
+  : Scene(std::make_unique<lamella::PropertyScene>())
 {
   this->SetNumberOfInputPorts(0);
 }
@@ -82,6 +82,7 @@ int vtkVesicleSource::RequestData(
   return lamella::reporting(this,
     [&]
     {
+      lamella::check_choices(*this->Scene);
       if (this->Scene->shape.kind == lamella::ShapeKind::frame ||
         this->Scene->domains.kind == lamella::DomainsKind::frame)
       {

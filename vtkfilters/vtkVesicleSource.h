@@ -26,7 +26,7 @@
 
 namespace lamella
 {
-struct Scene;
+struct PropertyScene;
 }
 
 class VTKLAMELLAFILTERS_EXPORT vtkVesicleSource : public vtkImageAlgorithm
@@ -205,7 +205,7 @@ private:
   vtkVesicleSource(const vtkVesicleSource&) = delete;
   void operator=(const vtkVesicleSource&) = delete;
 
-  std::unique_ptr<lamella::Scene> Scene;
+  std::unique_ptr<lamella::PropertyScene> Scene;
 };
 
 #endif

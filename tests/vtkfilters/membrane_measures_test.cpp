@@ -157,6 +157,19 @@ TEST(MembraneMeasures, HaveARowForEachTime) {
   }
 }
 
+TEST(MembraneMeasures, MeasureAllTimesAfterAnAbort) {
+  vtkNew<vtkVesicleDynamics> dynamics;
+  dynamics->SetInputData(image_of(sphere(0.5), 16));
+  dynamics->SetEndTime(1e-5);
+  dynamics->SetOutputFrames(3);
+  vtkNew<vtkMembraneMeasures> measures;
+  measures->SetInputConnection(dynamics->GetOutputPort());
+  abort_on_the_way_to(0, measures, measures, 2);
+  EXPECT_EQ(measures->GetOutput()->GetNumberOfRows(), 1);
+  measures->Update();
+  EXPECT_EQ(measures->GetOutput()->GetNumberOfRows(), 3);
+}
+
 TEST(MembraneMeasures, SayWhatIsWrongWithAnImage) {
   for (const BadImage& bad : bad_images()) {
     vtkNew<vtkMembraneMeasures> measures;

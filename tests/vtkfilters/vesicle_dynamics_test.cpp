@@ -11,7 +11,6 @@
 #include <vtkVesicleSource.h>
 
 #include <cmath>
-#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -50,28 +49,6 @@ double time_of(vtkImageData* image) {
 double field(vtkVesicleDynamics* dynamics, const char* name) {
   return field_value(*dynamics->GetOutput(), name).value();
 }
-
-/// Calls a function at every progress of an algorithm.
-class Watch {
-public:
-  Watch(vtkAlgorithm* algorithm, std::function<void()> action)
-      : algorithm_(algorithm), action_(std::move(action)) {
-    command_->SetClientData(&action_);
-    command_->SetCallback([](vtkObject*, unsigned long, void* action, void*) {
-      (*static_cast<std::function<void()>*>(action))();
-    });
-    tag_ = algorithm->AddObserver(vtkCommand::ProgressEvent, command_);
-  }
-  ~Watch() { algorithm_->RemoveObserver(tag_); }
-  Watch(const Watch&) = delete;
-  void operator=(const Watch&) = delete;
-
-private:
-  vtkSmartPointer<vtkAlgorithm> algorithm_;
-  std::function<void()> action_;
-  vtkNew<vtkCallbackCommand> command_;
-  unsigned long tag_;
-};
 
 TEST(VesicleDynamics, OffersTheTimesOfItsStoredStates) {
   const auto dynamics = dynamics_of(start());
@@ -160,8 +137,9 @@ TEST(VesicleDynamics, TellsTheHistory) {
   }
   EXPECT_EQ(at(history->GetNumberOfRows() - 1, "t"), end);
   EXPECT_EQ(at(history->GetNumberOfRows() - 1, "energy"), field(dynamics, "energy"));
+  const vtkIdType rows = history->GetNumberOfRows();
   dynamics->UpdateTimeStep(0);
-  EXPECT_EQ(history->GetNumberOfRows(), 1);
+  EXPECT_EQ(history->GetNumberOfRows(), rows) << "whole, whatever the time";
 }
 
 /// Of two balls that touch, in a box that is somewhere else: the neck is sharper than the grid.
@@ -211,17 +189,69 @@ TEST(VesicleDynamics, ComputesAnewOnlyWhatChanges) {
 
 TEST(VesicleDynamics, GoesOnAfterAnAbort) {
   const auto whole = dynamics_of(start()), dynamics = dynamics_of(start());
-  {
-    int steps = 0;
-    const Watch watch(dynamics, [&] {
-      if (++steps == 4) dynamics->AbortExecuteOn();
-    });
-    dynamics->UpdateTimeStep(end);
-  }
+  abort_on_the_way_to(end, dynamics, dynamics);
   EXPECT_GT(dynamics->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_LT(time_of(dynamics->GetOutput()), end);
-  dynamics->AbortExecuteOff();
+  EXPECT_EQ(phi_at(dynamics, end), phi_at(whole, end)) << "asked for the same time again";
+}
+
+TEST(VesicleDynamics, ComputesAnyTimeAfterAnAbort) {
+  const auto whole = dynamics_of(start()), dynamics = dynamics_of(start());
+  abort_on_the_way_to(end, dynamics, dynamics);
+  for (const double time : {end / 2, end, 0.0}) {
+    EXPECT_EQ(phi_at(dynamics, time), phi_at(whole, time));
+    EXPECT_EQ(time_of(dynamics->GetOutput()), time);
+    EXPECT_EQ(field(dynamics, "t"), time);
+  }
+  abort_on_the_way_to(0.3 * end, dynamics, dynamics, 2); // between two that are kept
+  EXPECT_EQ(field(dynamics, "t"), time_of(dynamics->GetOutput()));
+  EXPECT_LT(time_of(dynamics->GetOutput()), 0.3 * end);
+  EXPECT_EQ(phi_at(dynamics, 0.3 * end), phi_at(whole, 0.3 * end));
+  dynamics->SetSpontaneousCurvature(1);
+  whole->SetSpontaneousCurvature(1);
+  abort_on_the_way_to(end, dynamics, dynamics);
+  EXPECT_EQ(field(dynamics, "t"), time_of(dynamics->GetOutput()));
   EXPECT_EQ(phi_at(dynamics, end), phi_at(whole, end));
+}
+
+TEST(VesicleDynamics, AbortsOneUpdateOfAllItsPorts) {
+  const auto dynamics = dynamics_of(start());
+  abort_on_the_way_to(end, dynamics, dynamics, 1);
+  EXPECT_EQ(time_of(dynamics->GetOutput()), 0) << "also at once";
+  abort_on_the_way_to(end, dynamics, dynamics);
+  const double reached = time_of(dynamics->GetOutput());
+  EXPECT_GT(reached, 0);
+  for (int port : {1, 2}) {
+    dynamics->GetOutputInformation(port)->Set(Pipeline::UPDATE_TIME_STEP(), end);
+    dynamics->Update(port);
+    EXPECT_EQ(time_of(dynamics->GetOutput()), reached);
+    EXPECT_EQ(
+        dynamics->GetOutputDataObject(port)->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()),
+        reached);
+  }
+  dynamics->Update(1);
+  EXPECT_EQ(time_of(dynamics->GetOutput()), end) << "asked again";
+}
+
+TEST(VesicleDynamics, TellsTheTimeReachedDownAPipeline) {
+  const auto dynamics = dynamics_of(start());
+  vtkNew<vtkMembraneSurface> surface;
+  surface->SetInputConnection(dynamics->GetOutputPort());
+  const auto time = [&] {
+    return surface->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP());
+  };
+  abort_on_the_way_to(end, surface, dynamics);
+  EXPECT_LT(time(), end);
+  EXPECT_EQ(time(), field(dynamics, "t"));
+  surface->UpdateTimeStep(end);
+  EXPECT_EQ(time(), end);
+}
+
+TEST(VesicleDynamics, RefusesATimeThatIsNoNumber) {
+  const auto dynamics = dynamics_of(start());
+  const Reports reports(dynamics);
+  dynamics->UpdateTimeStep(NAN);
+  EXPECT_THAT(reports.text(), HasSubstr("not a number"));
 }
 
 TEST(VesicleDynamics, KeepsTheLastGoodStateOfARunThatFails) {
@@ -371,11 +401,11 @@ TEST(VesicleDynamics, SaysWhatIsWrongWithParameters) {
   dynamics->SetBendingModulus(NAN);
   EXPECT_THAT(error_of(dynamics), HasSubstr("[membrane] bending_modulus"));
   dynamics->SetBendingModulus(1);
-  {
-    const Reports reports(dynamics);
-    dynamics->SetVolumeConstraint("fixd");
-    EXPECT_THAT(reports.text(), HasSubstr("did you mean \"fixed\"?"));
-  }
+  dynamics->SetVolumeConstraint("fixd");
+  EXPECT_STREQ(dynamics->GetVolumeConstraint(), "fixd");
+  EXPECT_THAT(error_of(dynamics), HasSubstr("did you mean \"fixed\"?"));
+  dynamics->SetVolumeConstraint("free");
+  dynamics->SetVolumeConstraint("fixed");
   EXPECT_EQ(error_of(dynamics), "");
 }
 

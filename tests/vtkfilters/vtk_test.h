@@ -11,6 +11,7 @@
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,38 @@ inline std::string error_of(vtkAlgorithm* algorithm) {
   const Reports reports(algorithm);
   algorithm->Update();
   return reports.text();
+}
+
+/// Calls a function at every progress of an algorithm.
+class Watch {
+public:
+  Watch(vtkAlgorithm* algorithm, std::function<void()> action)
+      : algorithm_(algorithm), action_(std::move(action)) {
+    command_->SetClientData(&action_);
+    command_->SetCallback([](vtkObject*, unsigned long, void* action, void*) {
+      (*static_cast<std::function<void()>*>(action))();
+    });
+    tag_ = algorithm->AddObserver(vtkCommand::ProgressEvent, command_);
+  }
+  ~Watch() { algorithm_->RemoveObserver(tag_); }
+  Watch(const Watch&) = delete;
+  void operator=(const Watch&) = delete;
+
+private:
+  vtkSmartPointer<vtkAlgorithm> algorithm_;
+  std::function<void()> action_;
+  vtkNew<vtkCallbackCommand> command_;
+  unsigned long tag_;
+};
+
+/// Asks for a time, and aborts at the `count`-th progress.
+inline void abort_on_the_way_to(double time, vtkAlgorithm* asked, vtkAlgorithm* aborted,
+                                int count = 4) {
+  int steps = 0;
+  const Watch watch(aborted, [&] {
+    if (++steps == count) aborted->AbortExecuteOn();
+  });
+  asked->UpdateTimeStep(time);
 }
 
 inline vtkSmartPointer<vtkDoubleArray> array_of(const std::string& name,

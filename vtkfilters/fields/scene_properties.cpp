@@ -1,7 +1,6 @@
 #include "fields/scene_properties.h"
 
 #include "fields/image.h"
-#include "scene/keys.h"
 #include "scene/nearest.h"
 
 #include <fmt/format.h>
@@ -10,24 +9,33 @@
 
 namespace lamella {
 
-const char* choice_of(const Scene& scene, std::string_view section, std::string_view key) {
-  const Choice& choice = std::get<Choice>(find_key(section, key)->access);
+const char* choice_of(const PropertyScene& scene, std::string_view section, std::string_view key) {
+  const Key* found = find_key(section, key);
+  if (const auto name = scene.unknown.find(found); name != scene.unknown.end())
+    return name->second.c_str();
+  const Choice& choice = std::get<Choice>(found->access);
   Scene copy = scene;
   return choice.names[choice.get(copy)].data(); // a literal
 }
 
-bool set_choice(Scene& scene, std::string_view section, std::string_view name,
-                std::string_view value) {
-  const Key& key = *find_key(section, name);
+bool set_choice(PropertyScene& scene, const Key& key, std::string_view value) {
+  if (value == choice_of(scene, key.section, key.name)) return false;
   const Choice& choice = std::get<Choice>(key.access);
   const auto found = std::ranges::find(choice.names, value);
-  if (found == choice.names.end())
-    throw InputError(fmt::format("{}: \"{}\" is not available; allowed: {}{}", key.label(), value,
-                                 allowed_text(key), suggestion(std::string(value), choice.names)));
-  const int index = int(found - choice.names.begin());
-  if (choice.get(scene) == index) return false;
-  choice.set(scene, index);
+  if (found == choice.names.end()) {
+    scene.unknown[&key] = value;
+  } else {
+    scene.unknown.erase(&key);
+    choice.set(scene, int(found - choice.names.begin()));
+  }
   return true;
+}
+
+void check_choices(const PropertyScene& scene) {
+  for (const auto& [key, value] : scene.unknown)
+    throw InputError(fmt::format("{}: \"{}\" is not available; allowed: {}{}", key->label(), value,
+                                 allowed_text(*key),
+                                 suggestion(value, std::get<Choice>(key->access).names)));
 }
 
 void print_sections(std::ostream& out, const std::string& indent, const Scene& scene,

@@ -1,6 +1,8 @@
 #pragma once
+#include "scene/keys.h"
 #include "scene/scene.h"
 
+#include <map>
 #include <ostream>
 #include <span>
 #include <string>
@@ -8,12 +10,18 @@
 
 namespace lamella {
 
+/// The scene that properties make. A choice may be set to a name that there is not, as a number may
+/// be out of its range; that is refused where the scene is used.
+struct PropertyScene : Scene {
+  std::map<const Key*, std::string> unknown; ///< such names
+};
+
 /// The value by name of a parameter that has a choice, such as kind in [shape].
-const char* choice_of(const Scene& scene, std::string_view section, std::string_view key);
-/// Whether that changed anything. Throws InputError for a name that there is not, with those there
-/// are.
-bool set_choice(Scene& scene, std::string_view section, std::string_view key,
-                std::string_view value);
+const char* choice_of(const PropertyScene& scene, std::string_view section, std::string_view key);
+/// Whether that changed anything.
+bool set_choice(PropertyScene& scene, const Key& key, std::string_view value);
+/// Throws InputError for a name that there is not, with those there are.
+void check_choices(const PropertyScene& scene);
 
 /// The parameters of some sections that count, a line each.
 void print_sections(std::ostream& out, const std::string& indent, const Scene& scene,
@@ -46,9 +54,8 @@ void remove_targets(Ramp& ramp);
 
 #define lamellaChoiceProperty(cls, name, section, key)                                             \
   void cls::Set##name(const char* value) {                                                         \
-    lamella::reporting(this, [&] {                                                                 \
-      if (lamella::set_choice(*this->Scene, section, key, value ? value : "")) this->Modified();   \
-    });                                                                                            \
+    const lamella::Key& choice = *lamella::find_key(section, key);                                 \
+    if (lamella::set_choice(*this->Scene, choice, value ? value : "")) this->Modified();           \
   }                                                                                                \
   const char* cls::Get##name() { return lamella::choice_of(*this->Scene, section, key); }
 

@@ -48,19 +48,34 @@ Scene scene_of_text(const std::string& text, const std::vector<std::string>& ove
   return with_frames_found(parse_scene(text, "scene", overrides), {});
 }
 
-Start open_start(const Scene& scene, const Trajectory::GoOn& go_on) {
-  if (scene.shape.kind != ShapeKind::frame || !is_builtin(scene.shape.file)) return start_of(scene);
-  Scene earlier = builtin_scene(scene.shape.file);
-  earlier.nodes = scene.nodes;
-  earlier.half_width = scene.half_width;
+Trajectory* SceneRun::begin(const Trajectory::GoOn& go_on) {
+  if (!trajectory_) {
+    const bool later = scene_.shape.kind == ShapeKind::frame && is_builtin(scene_.shape.file);
+    const std::optional<Start> start = later ? end_of_earlier(go_on) : start_of(scene_);
+    if (!start) return nullptr;
+    trajectory_.emplace(scene_, *start);
+    earlier_.reset();
+  }
+  return &*trajectory_;
+}
+
+std::optional<Start> SceneRun::end_of_earlier(const Trajectory::GoOn& go_on) {
+  Scene earlier = builtin_scene(scene_.shape.file);
+  earlier.nodes = scene_.nodes;
+  earlier.half_width = scene_.half_width;
   earlier.output.frames = 2;
-  validate(earlier);
-  Trajectory trajectory(earlier, open_start(earlier, go_on));
-  const State end = trajectory.at(earlier.end_time, go_on);
-  if (trajectory.failure())
+  if (!earlier_) {
+    validate(earlier);
+    earlier_ = std::make_unique<SceneRun>(earlier);
+  }
+  Trajectory* trajectory = earlier_->begin(go_on);
+  if (!trajectory) return {};
+  const State end = trajectory->at(earlier.end_time, go_on);
+  if (trajectory->interrupted()) return {};
+  if (trajectory->failure())
     throw RunError(fmt::format("{}, where the scene starts, stopped at t = {:.6g}: {}",
-                               earlier.name, trajectory.time(), *trajectory.failure()));
-  return start_of(scene, end.frame);
+                               earlier.name, trajectory->time(), *trajectory->failure()));
+  return start_of(scene_, end.frame);
 }
 
 } // namespace lamella

@@ -1,5 +1,6 @@
 #include "fields/serve.h"
 
+#include "fields/image.h"
 #include "fields/state_data.h"
 
 #include <vtkImageData.h>
@@ -9,14 +10,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 
 namespace lamella {
-namespace {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-} // namespace
 
 void offer_times(vtkInformationVector& output, const std::vector<double>& times) {
   const double range[2] = {times.front(), times.back()};
@@ -44,10 +42,18 @@ void offer_grid(vtkInformation& output, const Grid& grid, const Vec3& center) {
   vtkDataObject::SetPointDataActiveScalarInfo(&output, VTK_DOUBLE, 1);
 }
 
+int requesting_port(vtkInformation& request) {
+  return std::max(0, request.Get(Pipeline::FROM_OUTPUT_PORT()));
+}
+
 double requested_time(vtkInformation& request, vtkInformationVector& output) {
-  const int port = std::max(0, request.Get(Pipeline::FROM_OUTPUT_PORT()));
-  vtkInformation* info = output.GetInformationObject(port);
+  vtkInformation* info = output.GetInformationObject(requesting_port(request));
   return info->Has(Pipeline::UPDATE_TIME_STEP()) ? info->Get(Pipeline::UPDATE_TIME_STEP()) : 0;
+}
+
+double valid_time(double time) {
+  if (std::isnan(time)) throw InputError("the time that is asked for is not a number");
+  return time;
 }
 
 Trajectory::GoOn until_aborted(vtkAlgorithm* self, double time) {
@@ -58,15 +64,28 @@ Trajectory::GoOn until_aborted(vtkAlgorithm* self, double time) {
   };
 }
 
-void serve(vtkAlgorithm* self, Trajectory& trajectory, const Vec3& center, vtkInformation& request,
-           vtkInformationVector& output) {
-  const double time = requested_time(request, output);
-  const State state = trajectory.at(time, until_aborted(self, time));
+vtkMTimeType parameters_time(vtkAlgorithm& self) {
+  vtkMTimeType time = self.vtkObject::GetMTime(); // without that of an update that was aborted
+  for (int port = 0; port < self.GetNumberOfInputPorts(); ++port)
+    for (int index = 0; index < self.GetNumberOfInputConnections(port); ++index)
+      time = std::max(time, self.GetInputDataObject(port, index)->GetMTime());
+  return time;
+}
+
+void serve(vtkAlgorithm* self, Trajectory& trajectory, const Vec3& center,
+           const TimeRequest& request, vtkInformationVector& output) {
+  const std::size_t steps = trajectory.history().size();
+  const State state = trajectory.at(request.time, request.go_on);
+  if (trajectory.history().size() > steps) self->Modified();
   fill_state(*vtkImageData::GetData(&output, 0), state.frame, state.measures, trajectory.scene(),
              center);
-  fill_history(*vtkTable::GetData(&output, 1), trajectory.history(), state.frame.time);
-  fill_events(*vtkTable::GetData(&output, 2), trajectory.events(), state.frame.time, center);
-  if (trajectory.failure() && time > trajectory.time())
+  fill_history(*vtkTable::GetData(&output, 1), trajectory.history());
+  fill_events(*vtkTable::GetData(&output, 2), trajectory.events(), center);
+  for (int port = 0; port < output.GetNumberOfInformationObjects(); ++port)
+    vtkDataObject::GetData(&output, port)
+        ->GetInformation()
+        ->Set(vtkDataObject::DATA_TIME_STEP(), state.frame.time);
+  if (request.begins && trajectory.failure() && request.time > trajectory.time())
     vtkErrorWithObjectMacro(self, << fmt::format("the run stopped at t = {:.6g}: {}",
                                                  trajectory.time(), *trajectory.failure()));
 }

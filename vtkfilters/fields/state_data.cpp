@@ -40,13 +40,12 @@ void append(vtkAbstractArray& column, const Field& field) {
     vtkDoubleArray::SafeDownCast(&column)->InsertNextValue(number_in(field));
 }
 
-/// The records (measures, events) until a time, in the columns that one like them has.
+/// The records (measures, events) in the columns that one like them has.
 template <class Record>
-void fill_table(vtkTable& table, std::span<const Record> records, double until, Record like) {
+void fill_table(vtkTable& table, std::span<const Record> records, Record like) {
   table.Initialize();
   for (const Field& field : row_of(like)) add_column(table, field);
   for (Record record : records) {
-    if (record.time > until) break;
     vtkIdType index = 0;
     for (const Field& field : row_of(record)) append(*table.GetColumn(index++), field);
   }
@@ -63,15 +62,15 @@ void fill_state(vtkImageData& image, const Frame& frame, const Measures& measure
   set_forces(image, scene);
 }
 
-void fill_history(vtkTable& table, std::span<const Measures> history, double until) {
-  fill_table(table, history, until, history.empty() ? Measures() : history.front());
+void fill_history(vtkTable& table, std::span<const Measures> history) {
+  fill_table(table, history, history.empty() ? Measures() : history.front());
 }
 
-void fill_events(vtkTable& table, std::span<const Event> events, double until, const Vec3& center) {
+void fill_events(vtkTable& table, std::span<const Event> events, const Vec3& center) {
   std::vector<Event> moved(events.begin(), events.end());
   for (Event& event : moved)
     for (int a = 0; a < 3; ++a) event.place[a] += center[a];
-  fill_table<Event>(table, moved, until, Event());
+  fill_table<Event>(table, moved, Event());
 }
 
 } // namespace lamella

@@ -16,11 +16,10 @@ namespace lamella {
 void fill_state(vtkImageData& image, const Frame& frame, const Measures& measures,
                 const Scene& scene, const Vec3& center = {});
 
-/// Measures until a time (included), one row each, in the columns of history.csv.
-void fill_history(vtkTable& table, std::span<const Measures> history, double until);
+/// Measures, one row each, in the columns of history.csv.
+void fill_history(vtkTable& table, std::span<const Measures> history);
 
 /// The same of events in a box around a centre, in the columns of events.csv; the kind is text.
-void fill_events(vtkTable& table, std::span<const Event> events, double until,
-                 const Vec3& center = {});
+void fill_events(vtkTable& table, std::span<const Event> events, const Vec3& center = {});
 
 } // namespace lamella

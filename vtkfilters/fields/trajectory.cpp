@@ -55,21 +55,21 @@ Trajectory::Trajectory(const Scene& scene, const Start& start)
 }
 
 State Trajectory::at(double time, const GoOn& go_on) {
+  interrupted_ = false;
   time = std::clamp(time, 0.0, times_.back());
   const auto after = std::ranges::upper_bound(times_, time * (1 + rounding));
   const auto before = std::size_t(after - times_.begin()) - 1;
   if (!advance(before, go_on)) return now();
   if (time <= times_[before] * (1 + rounding)) return stored_[before];
-  if (ended_ && time >= this->time()) return now();
-  if (!last_between_ || last_between_->frame.time != time)
-    last_between_ = between(before, time, go_on);
-  return *last_between_;
+  if (time == this->time() || (ended_ && time > this->time())) return now();
+  return between(before, time, go_on);
 }
 
 /// Until a stored state is there; false where the run ends before, or may not go on.
 bool Trajectory::advance(std::size_t stored, const GoOn& go_on) {
   while (stored_.size() <= stored && !ended_) {
-    if (!go_on(time())) return false;
+    interrupted_ = !go_on(time());
+    if (interrupted_) return false;
     if (ended_by_rule()) break;
     const auto begin = Clock::now();
     const double goal = times_[stored_.size()];
@@ -95,16 +95,36 @@ bool Trajectory::ended_by_rule() {
   return ended_;
 }
 
-State Trajectory::between(std::size_t stored, double time, const GoOn& go_on) const {
-  const State& from = stored_[stored];
-  const double begin = from.frame.time, goal = time - begin;
-  const Scene rest = rest_of(scene_, begin);
-  Simulation simulation(rest, start_of(rest, from.frame));
-  while (goal - simulation.time() > rounding * goal && go_on(begin + simulation.time()))
-    simulation.step(goal);
+State Trajectory::between(std::size_t stored, double time, const GoOn& go_on) {
+  if (last_between_ && last_between_->frame.time == time) return *last_between_;
+  if (!way_ || way_->goal != time) way_.emplace(scene_, stored_[stored].frame, time);
+  interrupted_ = !way_->go(go_on);
+  if (interrupted_) return way_->state();
+  last_between_ = way_->state();
+  way_.reset();
+  return *last_between_;
+}
+
+Trajectory::Way::Way(const Scene& scene, const Frame& from, double goal)
+    : begin(from.time), goal(goal),
+      simulation(rest_of(scene, begin), start_of(rest_of(scene, begin), from)) {}
+
+bool Trajectory::Way::go(const GoOn& go_on) {
+  while (!arrived()) {
+    if (!go_on(begin + simulation.time())) return false;
+    simulation.step(goal - begin);
+  }
+  return true;
+}
+
+bool Trajectory::Way::arrived() const {
+  const double length = goal - begin;
+  return length - simulation.time() <= rounding * length;
+}
+
+State Trajectory::Way::state() const {
   State state{simulation.frame(), simulation.measures()};
-  state.measures.time = state.frame.time = begin + simulation.time();
-  if (goal - simulation.time() <= rounding * goal) state.measures.time = state.frame.time = time;
+  state.measures.time = state.frame.time = arrived() ? goal : begin + simulation.time();
   return state;
 }
 

@@ -30,9 +30,11 @@ public:
   Trajectory(const Scene& scene, const Start& start);
 
   /// The state at a time, between stored ones by going on from the one before. An earlier one where
-  /// the scene's rules or an error ended the run, or `go_on` the search. Throws RunError where the
-  /// way from the stored state cannot be gone.
+  /// the scene's rules or an error ended the run, or `go_on` the search; the next one for that time
+  /// goes on from there. Throws RunError where the way from the stored state cannot be gone.
   State at(double time, const GoOn& go_on);
+  /// Whether the last search was ended by `go_on`.
+  bool interrupted() const { return interrupted_; }
 
   /// The start and every step of the run, as far as it was computed.
   const std::vector<Measures>& history() const { return history_; }
@@ -44,10 +46,21 @@ public:
   const Scene& scene() const { return scene_; }
 
 private:
+  /// From a stored state to a time before the next one.
+  struct Way {
+    Way(const Scene& scene, const Frame& from, double goal);
+    bool go(const GoOn& go_on);
+    State state() const;
+    bool arrived() const;
+
+    double begin, goal;
+    Simulation simulation; // its clock is at 0 where the way begins
+  };
+
   bool advance(std::size_t stored, const GoOn& go_on);
   bool ended_by_rule();
   State now() const { return {simulation_.frame(), simulation_.measures()}; }
-  State between(std::size_t stored, double time, const GoOn& go_on) const;
+  State between(std::size_t stored, double time, const GoOn& go_on);
 
   Scene scene_;
   std::vector<double> times_;
@@ -58,6 +71,8 @@ private:
   std::vector<Measures> history_;
   bool ended_ = false;
   std::optional<std::string> failure_;
+  bool interrupted_ = false;
+  std::optional<Way> way_; // one not gone to its end
   std::optional<State> last_between_;
 };
 
