@@ -1,7 +1,8 @@
 """Lipid vesicles and membranes over time, for VTK pipelines and numpy.
 
 The VTK classes are here under their own names (vtkVesicleSource, vtkMembraneSurface, ...), beside
-those of `vtkmodules`; help(lamella.vtkVesicleDynamics) has their arrays, shapes and units. Around them:
+those of `vtkmodules`; help(lamella.vtkVesicleDynamics) has their arrays, shapes and units. Their updates
+raise Error. Around them:
 
     run(scene)        a scene over time, computed as it is looked at
     open(folder)      a stored run
@@ -18,9 +19,9 @@ on the unit sphere.
 import vtkmodules.vtkCommonExecutionModel  # what the wrapped classes are made from
 import vtkmodules.vtkFiltersCore  # noqa: F401
 
-from .vtkLamellaFilters import *  # noqa: F401,F403
-from ._data import Error, arrays, boundary, measures, surface, update
+from ._classes import *  # noqa: F401,F403
+from ._classes import CLASSES
+from ._data import Error, arrays, update
 from ._run import Frame, Run, open, run
 
-__all__ = [name for name, value in vars().items() if name.startswith("vtk") and isinstance(value, type)]
-__all__ += ["Error", "Frame", "Run", "arrays", "boundary", "measures", "open", "run", "surface", "update"]
+__all__ = CLASSES + ["Error", "Frame", "Run", "arrays", "boundary", "measures", "open", "run", "surface", "update"]

@@ -1,32 +1,32 @@
 """Scenes and stored runs as sequences of frames."""
 
-import builtins
+import operator
 import os
-import shutil
-import tempfile
-import weakref
+from collections.abc import Mapping
 
 import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
-from ._data import arrays, boundary, fields, records, surface, time_of, update
-from .vtkLamellaFilters import vtkVesicleRunReader, vtkVesicleSceneReader
+from . import _scene
+from ._classes import boundary, surface, vtkVesicleRunReader, vtkVesicleSceneReader
+from ._data import Error, alone, arrays, fields, number, records, time_of, update, what
 
 
 class Frame:
-    """A vesicle at one time.
+    """A vesicle at one time. All of it is its own: what is written into it changes nothing else.
 
     time      of the state
-    phi       level set, negative inside; float64, shape (nz, ny, nx), a view without a copy
+    phi       level set, negative inside; float64, shape (nz, ny, nx)
     psi, c    phases (negative in Ld) and local stretch, likewise; None where there are none
     measures  dict of floats, named as the columns of the history: energy, P, sigma, A, V, v, ...
-    image     all of it as vtkImageData, for VTK filters
+    image     all of it as vtkImageData, for VTK filters; phi, psi and c are views of its arrays
     """
 
     def __init__(self, image):
         self.image = vtkImageData()
-        self.image.ShallowCopy(image)
+        self.image.DeepCopy(image)
         self.time = time_of(image)
         self.measures = fields(image)
         found = arrays(self.image)
@@ -43,10 +43,35 @@ class Frame:
     def __repr__(self):
         return f"<lamella.Frame at t = {self.time:g}>"
 
+    def __reduce__(self):
+        own = {name: numpy.array(view) for name, view in arrays(self.image).items()}
+        return _frame, (self.time, self.image.GetOrigin(), self.image.GetSpacing(), own, self.measures)
+
+
+def _frame(time, origin, spacing, own, measures):
+    """What Frame.__reduce__() has taken apart."""
+    image = vtkImageData()
+    image.SetDimensions(*reversed(own["phi"].shape))
+    image.SetOrigin(origin)
+    image.SetSpacing(spacing)
+    for name, values in own.items():
+        _add(image.GetPointData(), name, values.ravel())
+    image.GetPointData().SetActiveScalars("phi")
+    for name, value in measures.items():
+        _add(image.GetFieldData(), name, numpy.array([value]))
+    image.GetInformation().Set(vtkImageData.DATA_TIME_STEP(), time)
+    return Frame(image)
+
+
+def _add(attributes, name, values):
+    array = numpy_to_vtk(values, deep=True)
+    array.SetName(name)
+    attributes.AddArray(array)
+
 
 class Run:
     """A scene or a stored run over time: iterate over it for the frames at `times`, len() of them; index
-    it by number, or ask for any time with at()."""
+    it by number or slice, or ask for any time with at(). Threads that share one take turns."""
 
     def __init__(self, reader):
         self.reader = reader
@@ -60,79 +85,79 @@ class Run:
     def at(self, time):
         """The Frame at a time, computed where it is not there yet. Raises Error where the run
         stopped before."""
-        return Frame(update(self.reader, float(time)).GetOutputDataObject(0))
+        time = number(time)
+        with alone([self.reader]):
+            image = update(self.reader, time).GetOutputDataObject(0)
+            if image.GetNumberOfPoints() == 0:
+                raise Error("the run was aborted before it had started")
+            return Frame(image)
 
     @property
     def history(self):
-        """The start and every step until the frame last asked for, as dict of float64 arrays,
-        shape (rows,), named as the columns of history.csv."""
-        return arrays(self.reader.GetOutputDataObject(1))
+        """The start and every step, as far as they are stored, or computed until now: dict of float64
+        arrays, shape (rows,), named as the columns of history.csv."""
+        return arrays(self._table(1))
 
     @property
     def events(self):
-        """What happened until the frame last asked for: a list of dicts with the columns of
-        events.csv, `kind` ("fission", "rupture", ...), `t`, `x`, `y`, `z`, `size`, ..."""
-        return records(self.reader.GetOutputDataObject(2))
+        """What happened in these steps: a list of dicts with the columns of events.csv, `kind`
+        ("fission", "rupture", ...), `t`, `x`, `y`, `z`, `size`, ..."""
+        return records(self._table(2))
+
+    def _table(self, port):
+        """A copy."""
+        with alone([self.reader]):
+            table = self.reader.GetOutputDataObject(port)
+            if table.GetNumberOfColumns() == 0:  # nothing was asked for yet
+                self.at(self.times[0])
+            copy = table.NewInstance()
+            copy.DeepCopy(table)
+            return copy
 
     def __len__(self):
         return len(self.times)
 
-    def __getitem__(self, number):
-        return self.at(self.times[number])
+    def __getitem__(self, number_or_slice):
+        """The frame of a number; of a slice, a list of frames."""
+        if isinstance(number_or_slice, slice):
+            return [self.at(time) for time in self.times[number_or_slice]]
+        return self.at(self.times[operator.index(number_or_slice)])
 
     def __iter__(self):
         return (self.at(time) for time in self.times)
+
+    def __repr__(self):
+        return f"<lamella.Run of {len(self)} frames until t = {self.times[-1]:g}>"
 
 
 def run(scene, overrides=()):
     """A Run of a scene, computed as it is looked at.
 
     scene      a scene file, the name of a built-in scene, or a dict of sections:
-               {"shape": {"kind": "sphere", "radius": 0.6}, "run": {"end_time": 1e-3}}
-    overrides  "section.key=value", in place of what the scene says
+               {"shape": {"kind": "sphere", "radius": 0.6}, "run": {"end_time": 1e-3}}; what is None
+               in it has its default, and files count from the current folder
+    overrides  "section.key=value", one or several, in place of what the scene says
 
     Raises Error for a mistake in the scene, with the key and what is allowed.
     """
     reader = vtkVesicleSceneReader()
-    for setting in overrides:
+    for setting in [overrides] if isinstance(overrides, str) else overrides or ():
+        if not isinstance(setting, str):
+            raise Error(f'overrides are texts such as "grid.nodes=96", not {what(setting)}')
         reader.AddOverride(setting)
-    if not isinstance(scene, dict):
-        reader.SetFileName(os.fspath(scene))
-        return Run(reader)
-    folder = tempfile.mkdtemp(prefix="lamella-")
-    file = os.path.join(folder, "scene.toml")
-    with builtins.open(file, "w", encoding="utf-8") as stream:
-        stream.write(_toml(scene))
-    weakref.finalize(reader, shutil.rmtree, folder, ignore_errors=True)  # there as long as it
-    reader.SetFileName(file)
+    if isinstance(scene, Mapping):
+        reader.SetSceneText(_scene.text_of(scene))
+    elif isinstance(scene, (str, bytes, os.PathLike)):
+        reader.SetFileName(_scene.whole_path(scene))
+    else:
+        raise Error(f"a scene is a file, the name of a built-in scene, or a dict of sections, not {what(scene)}")
     return Run(reader)
 
 
 def open(folder):
     """The Run that `lamella run` stored in a folder. Raises Error where there is none."""
+    if not isinstance(folder, (str, bytes, os.PathLike)):
+        raise Error(f"open() takes the folder of a run, not {what(folder)}")
     reader = vtkVesicleRunReader()
-    reader.SetFileName(os.fspath(folder))
+    reader.SetFileName(_scene.whole_path(folder))
     return Run(reader)
-
-
-def _toml(scene):
-    """Sections of keys as TOML."""
-    top = {key: value for key, value in scene.items() if not isinstance(value, dict)}
-    lines = [f"{key} = {_value(value)}" for key, value in top.items()]
-    for section, keys in scene.items():
-        if isinstance(keys, dict):
-            lines.append(f"[{section}]")
-            lines += [f"{key} = {_value(value)}" for key, value in keys.items()]
-    return "\n".join(lines) + "\n"
-
-
-def _value(value):
-    if isinstance(value, (bool, numpy.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
-    if isinstance(value, (list, tuple, numpy.ndarray)):
-        return "[" + ", ".join(_value(one) for one in value) + "]"
-    if isinstance(value, (float, numpy.floating)):
-        return repr(float(value))
-    return str(value)
