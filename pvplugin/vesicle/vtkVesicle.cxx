@@ -1,6 +1,6 @@
 #include "vtkVesicle.h"
 
-#include "scene/keys.h"
+#include "fields/scene_properties.h"
 #include "scene/scene_toml.h"
 
 #include <vtkObjectFactory.h>
@@ -60,34 +60,24 @@ bool SetMember(lamella::Scene& scene, const lamella::Access& access, const lamel
   return false;
 }
 
-bool SetMember(lamella::Scene& scene, const lamella::Access& access, const std::string& value)
+bool SetMember(lamella::PropertyScene& scene, const lamella::Key& key, const std::string& value)
 {
-  if (const auto* text = std::get_if<Member<std::string>>(&access))
+  if (const auto* text = std::get_if<Member<std::string>>(&key.access))
   {
     (*text)(scene) = value;
     return true;
   }
-  if (const auto* choice = std::get_if<lamella::Choice>(&access))
+  if (std::holds_alternative<lamella::Choice>(key.access))
   {
-    const auto name = std::find(choice->names.begin(), choice->names.end(), value);
-    if (name != choice->names.end())
-    {
-      choice->set(scene, static_cast<int>(name - choice->names.begin()));
-      return true;
-    }
+    lamella::set_choice(scene, key, value);
+    return true;
   }
   return false;
-}
-
-void AddTarget(lamella::Ramp& ramp, double target, double start_time)
-{
-  ramp.targets.push_back(target);
-  ramp.start_times.push_back(start_time);
 }
 }
 
 vtkVesicle::vtkVesicle()
-  : Scene(std::make_unique<lamella::Scene>())
+  : Scene(std::make_unique<lamella::PropertyScene>())
 {
 }
 
@@ -100,6 +90,7 @@ vtkAlgorithm* vtkVesicle::GetRun()
 
 void vtkVesicle::Prepare()
 {
+  lamella::check_choices(*this->Scene);
   lamella::validate(*this->Scene);
   const std::string text = lamella::to_toml(*this->Scene);
   if (text != this->Reader->GetSceneText())
@@ -131,10 +122,9 @@ void vtkVesicle::SetVector(const char* key, double x, double y, double z)
 void vtkVesicle::SetText(const char* key, const char* value)
 {
   const lamella::Key* found = FindKey(key);
-  if (!found || !SetMember(*this->Scene, found->access, std::string(value ? value : "")))
+  if (!found || !SetMember(*this->Scene, *found, value ? value : ""))
   {
-    vtkErrorMacro(<< key << " = \"" << (value ? value : "") << "\" is not available"
-                  << (found ? "; allowed: " + lamella::allowed_text(*found) : ""));
+    vtkErrorMacro("no text is called " << key);
   }
   this->Modified();
 }
@@ -153,26 +143,24 @@ void vtkVesicle::RemoveAllDomains()
 
 void vtkVesicle::AddVolumeTarget(double target, double start_time)
 {
-  AddTarget(this->Scene->volume.ramp, target, start_time);
+  lamella::add_target(this->Scene->volume.ramp, target, start_time);
   this->Modified();
 }
 
 void vtkVesicle::RemoveAllVolumeTargets()
 {
-  this->Scene->volume.ramp.targets.clear();
-  this->Scene->volume.ramp.start_times.clear();
+  lamella::remove_targets(this->Scene->volume.ramp);
   this->Modified();
 }
 
 void vtkVesicle::AddAreaDifferenceTarget(double target, double start_time)
 {
-  AddTarget(this->Scene->area_difference.ramp, target, start_time);
+  lamella::add_target(this->Scene->area_difference.ramp, target, start_time);
   this->Modified();
 }
 
 void vtkVesicle::RemoveAllAreaDifferenceTargets()
 {
-  this->Scene->area_difference.ramp.targets.clear();
-  this->Scene->area_difference.ramp.start_times.clear();
+  lamella::remove_targets(this->Scene->area_difference.ramp);
   this->Modified();
 }

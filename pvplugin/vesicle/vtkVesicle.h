@@ -20,7 +20,7 @@ class vtkVesicleSceneReader;
 
 namespace lamella
 {
-struct Scene;
+struct PropertyScene;
 }
 
 class VTKLAMELLAVESICLE_EXPORT vtkVesicle : public vtkVesiclePipeline
@@ -31,7 +31,7 @@ public:
 
   ///@{
   /** A parameter by its name in scene files, "section.key". One that the kind of shape, of domains or
-   * of a constraint has no use for is ignored. */
+   * of a constraint has no use for is ignored; a value that there is not is refused where the vesicle is computed. */
   void SetNumber(const char* key, double value);
   void SetVector(const char* key, double x, double y, double z);
   void SetText(const char* key, const char* value);
@@ -66,7 +66,7 @@ private:
   vtkVesicle(const vtkVesicle&) = delete;
   void operator=(const vtkVesicle&) = delete;
 
-  std::unique_ptr<lamella::Scene> Scene;
+  std::unique_ptr<lamella::PropertyScene> Scene;
   vtkNew<vtkVesicleSceneReader> Reader;
 };
 

@@ -1,5 +1,7 @@
 #include "vtkVesiclePipeline.h"
 
+#include "fields/serve.h"
+
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -13,7 +15,8 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <exception>
 
 namespace
@@ -30,8 +33,9 @@ enum Port
   NumberOfPorts
 };
 
-constexpr std::chrono::milliseconds Slice{ 200 }; // of computing between two live pictures
-constexpr double RunShare = 0.9;                  // of an update's progress
+constexpr std::chrono::milliseconds Slice{ 200 };             // of computing between two live pictures
+constexpr std::chrono::seconds Memory{ 5 }, LeastMemory{ 2 }; // of a live vesicle's pace
+constexpr double RunShare = 0.9;                              // of an update's progress
 
 /** The time that a state has come to, which may be less than what was asked for. */
 double TimeOf(vtkDataObject& data)
@@ -40,24 +44,21 @@ double TimeOf(vtkDataObject& data)
   return time ? time->GetTuple1(0) : 0;
 }
 
-/** The time that the requesting port asks for; 0 where it asks for none. */
-double RequestedTime(vtkInformation& request, vtkInformationVector& output)
+vtkIdType Steps(vtkAlgorithm& run)
 {
-  const int port = std::max(0, request.Get(Pipeline::FROM_OUTPUT_PORT()));
-  vtkInformation* info = output.GetInformationObject(port);
-  return info->Has(Pipeline::UPDATE_TIME_STEP()) ? info->Get(Pipeline::UPDATE_TIME_STEP()) : 0;
+  return vtkTable::SafeDownCast(run.GetOutputDataObject(1))->GetNumberOfRows();
 }
 
 bool IsFirstPiece(vtkInformation& request, vtkInformationVector& output)
 {
-  const int port = std::max(0, request.Get(Pipeline::FROM_OUTPUT_PORT()));
-  vtkInformation* info = output.GetInformationObject(port);
+  vtkInformation* info = output.GetInformationObject(lamella::requesting_port(request));
   return !info->Has(Pipeline::UPDATE_PIECE_NUMBER()) ||
     info->Get(Pipeline::UPDATE_PIECE_NUMBER()) == 0;
 }
 }
 
 vtkVesiclePipeline::vtkVesiclePipeline()
+  : Round(std::make_unique<lamella::UpdateRound>())
 {
   this->SetNumberOfInputPorts(0);
   this->SetNumberOfOutputPorts(NumberOfPorts);
@@ -114,6 +115,13 @@ int vtkVesiclePipeline::RequestInformation(
   return 1;
 }
 
+int vtkVesiclePipeline::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  this->AbortExecute = 0; // an abort was of the update that it stopped
+  return 1;
+}
+
 int vtkVesiclePipeline::RequestData(
   vtkInformation* request, vtkInformationVector**, vtkInformationVector* output)
 {
@@ -121,54 +129,94 @@ int vtkVesiclePipeline::RequestData(
   {
     return 1;
   }
-  try
-  {
-    this->Prepare();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 1;
-  }
+  return lamella::answer(this, *this->Round, *request, *output,
+    [&](const lamella::TimeRequest& wanted)
+    {
+      if (wanted.begins)
+      {
+        this->Ended = true; // a live run, where it fails
+        this->LiveState.clear();
+        this->Prepare();
+        this->Compute(wanted.time);
+      }
+      this->Fill(*output);
+    });
+}
+
+vtkMTimeType vtkVesiclePipeline::GetMTime()
+{
+  return this->Round->modification_time(this->Superclass::GetMTime());
+}
+
+void vtkVesiclePipeline::Compute(double time)
+{
   if (this->Live)
   {
     this->UpdateRunForAWhile();
   }
   else
   {
-    this->LastTime = -1;
-    this->UpdateRun(RequestedTime(*request, *output));
+    this->UpdateRun(time);
   }
-  vtkTable::GetData(output, HistoryPort)->ShallowCopy(this->GetRun()->GetOutputDataObject(1));
-  vtkTable::GetData(output, EventsPort)->ShallowCopy(this->GetRun()->GetOutputDataObject(2));
-  auto* image = vtkImageData::SafeDownCast(this->GetRun()->GetOutputDataObject(0));
-  if (image->GetNumberOfPoints() > 0) // else the run has said what is wrong
-  {
-    this->Show(*image, *output);
-  }
-  return 1;
 }
 
 void vtkVesiclePipeline::UpdateRun(double time)
 {
   vtkAlgorithm* run = this->GetRun();
-  run->AbortExecuteOff();
-  run->Modified(); // goes on where it was aborted
+  run->Modified(); // also where it has failed at that time before, and said so
   const auto observer =
     run->AddObserver(vtkCommand::ProgressEvent, this, &vtkVesiclePipeline::OnProgress);
+  const vtkIdType steps = Steps(*run);
   run->UpdateTimeStep(time);
   run->RemoveObserver(observer);
+  if (Steps(*run) != steps)
+  {
+    this->Modified(); // the history is another one, also for those that ask for no time
+  }
 }
 
+/** A run that was not stopped has come to its end. */
 void vtkVesiclePipeline::UpdateRunForAWhile()
 {
   vtkInformation* info = this->GetRun()->GetOutputInformation(0);
   const double end = info->Has(Pipeline::TIME_RANGE()) ? info->Get(Pipeline::TIME_RANGE())[1] : 0;
   this->SliceEnd = Clock::now() + Slice;
   this->UpdateRun(end);
+  this->Ended = this->AbortExecute || !this->GetRun()->GetAbortExecute();
+  this->TellLiveState(end);
+}
+
+void vtkVesiclePipeline::TellLiveState(double end)
+{
   const double time = TimeOf(*this->GetRun()->GetOutputDataObject(0));
-  this->Ended = time >= end || time == this->LastTime;
-  this->LastTime = time;
+  const auto now = Clock::now();
+  if (!this->Lately.empty() && time < this->Lately.back().Time) // another run
+  {
+    this->Lately.clear();
+  }
+  this->Lately.push_back({ now, time });
+  while (now - this->Lately.front().When > Memory)
+  {
+    this->Lately.pop_front();
+  }
+  this->LiveState = this->Ended
+    ? fmt::format("ended at t = {:.4g} of {:.4g}", time, end)
+    : fmt::format("t = {:.4g} of {:.4g}{}", time, end, this->TimeLeft(end));
+}
+
+/** At the pace of late; nothing where that is not known yet. */
+std::string vtkVesiclePipeline::TimeLeft(double end) const
+{
+  const Milestone &first = this->Lately.front(), &last = this->Lately.back();
+  if (last.Time <= first.Time || last.When - first.When < LeastMemory)
+  {
+    return "";
+  }
+  const std::chrono::duration<double> passed = last.When - first.When;
+  const double seconds = passed.count() * (end - last.Time) / (last.Time - first.Time);
+  return seconds < 90 ? fmt::format(", {:.0f} s left at this pace", seconds)
+    : seconds < 5400  ? fmt::format(", {:.0f} min left at this pace", seconds / 60)
+                      : fmt::format(", {:.0f} h left at this pace", seconds / 3600);
 }
 
 void vtkVesiclePipeline::OnProgress()
@@ -178,9 +226,22 @@ void vtkVesiclePipeline::OnProgress()
   {
     this->UpdateProgress(RunShare * run->GetProgress());
   }
-  if (this->GetAbortExecute() || (this->Live && Clock::now() > this->SliceEnd))
+  const double progress = run->GetProgress();
+  const bool goesOn = progress > 0 && progress < 1; // a step was made, and there is more to do
+  if (this->AbortExecute || (this->Live && goesOn && Clock::now() > this->SliceEnd))
   {
     run->AbortExecuteOn();
+  }
+}
+
+void vtkVesiclePipeline::Fill(vtkInformationVector& output)
+{
+  vtkTable::GetData(&output, HistoryPort)->ShallowCopy(this->GetRun()->GetOutputDataObject(1));
+  vtkTable::GetData(&output, EventsPort)->ShallowCopy(this->GetRun()->GetOutputDataObject(2));
+  auto* image = vtkImageData::SafeDownCast(this->GetRun()->GetOutputDataObject(0));
+  if (image->GetNumberOfPoints() > 0) // else the run has said what is wrong
+  {
+    this->Show(*image, output);
   }
 }
 

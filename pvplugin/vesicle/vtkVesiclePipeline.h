@@ -9,12 +9,13 @@
  * |------------------|--------------|---------|
  * | 0 membrane       | vtkPolyData  | triangles, as of vtkMembraneSurface |
  * | 1 phase boundary | vtkPolyData  | lines, as of vtkPhaseBoundary; empty with one phase |
- * | 2 history        | vtkTable     | a row for each step until this time |
+ * | 2 history        | vtkTable     | a row for each step that was computed, or stored |
  * | 3 level set      | vtkImageData | phi, psi, c |
- * | 4 events         | vtkTable     | a row for each event until this time |
+ * | 4 events         | vtkTable     | a row for each event until then |
  *
  * Field data of outputs 0 and 3 are the measures of the state. Progress is that towards the time asked
- * for; aborted, the outputs are those of the time reached. All of it is on the first of several pieces.
+ * for; aborted, the outputs are those of the time reached, and the next update goes on from there. All
+ * of it is on the first of several pieces.
  *
  * @sa vtkVesicle vtkVesicleScene vtkVesicleRun
  */
@@ -27,6 +28,14 @@
 #include <vtkPolyDataAlgorithm.h>
 
 #include <chrono>
+#include <deque>
+#include <memory>
+#include <string>
+
+namespace lamella
+{
+class UpdateRound;
+}
 
 class vtkImageData;
 class vtkMembraneSurface;
@@ -40,7 +49,8 @@ public:
 
   ///@{
   /** Whether the vesicle is shown while it is computed: there are no time steps then; each update
-   * computes for a fraction of a second and shows the state that it has come to. Default off. */
+   * computes for a fraction of a second and shows the state that it has come to. Aborted, it stays there
+   * until something is changed. Default off. */
   vtkSetMacro(Live, bool);
   vtkGetMacro(Live, bool);
   vtkBooleanMacro(Live, bool);
@@ -48,6 +58,12 @@ public:
 
   /** Whether another update would show something later: for ParaView's live sources. */
   bool GetNeedsUpdate();
+
+  /** How far a live vesicle has come, and how long it takes until its end at the pace of the last seconds. */
+  const char* GetLiveState() { return this->LiveState.c_str(); }
+
+  /** Later than the last update for as long as that was aborted. */
+  vtkMTimeType GetMTime() override;
 
 protected:
   vtkVesiclePipeline();
@@ -61,6 +77,8 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
@@ -69,17 +87,28 @@ private:
   void operator=(const vtkVesiclePipeline&) = delete;
 
   using Clock = std::chrono::steady_clock;
+  void Compute(double time);
   void UpdateRun(double time);
   void UpdateRunForAWhile();
+  void TellLiveState(double end);
+  std::string TimeLeft(double end) const;
   void OnProgress();
+  void Fill(vtkInformationVector& output);
   void Show(vtkImageData& image, vtkInformationVector& output);
 
   bool Live = false;
   bool Ended = false;         // a live run
-  double LastTime = -1;       // of a live run
   Clock::time_point SliceEnd; // of a live update
+  std::string LiveState;
+  struct Milestone
+  {
+    Clock::time_point When;
+    double Time;
+  };
+  std::deque<Milestone> Lately; // where a live vesicle was
   vtkNew<vtkMembraneSurface> Membrane;
   vtkNew<vtkPhaseBoundary> Boundary;
+  std::unique_ptr<lamella::UpdateRound> Round;
 };
 
 #endif

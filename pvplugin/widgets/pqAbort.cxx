@@ -1,7 +1,10 @@
 #include "widgets/pqAbort.h"
 
+#include <pqAnimationManager.h>
+#include <pqAnimationScene.h>
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
+#include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqProgressManager.h>
 #include <pqProgressWidget.h>
@@ -9,17 +12,34 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkCommand.h>
+#include <vtkDataObject.h>
+#include <vtkInformation.h>
 #include <vtkSMProxy.h>
+#include <vtkVesiclePipeline.h>
 
 #include <QApplication>
 #include <QEvent>
+#include <QMainWindow>
 #include <QOpenGLWidget>
+#include <QStatusBar>
+#include <QTimer>
 #include <QToolButton>
 #include <QWindow>
 
 namespace
 {
 constexpr int Pause = 50; // milliseconds between looking for events
+
+pqAnimationScene* AnimationScene()
+{
+  return pqPVApplicationCore::instance()->animationManager()->getActiveScene();
+}
+
+bool IsLive(vtkAlgorithm* algorithm)
+{
+  auto* vesicle = vtkVesiclePipeline::SafeDownCast(algorithm);
+  return vesicle && vesicle->GetLive();
+}
 
 pqProgressManager* ProgressManager()
 {
@@ -76,8 +96,7 @@ pqAbort::pqAbort(QObject* parent)
   {
     this->watch(source);
   }
-  QObject::connect(
-    ProgressManager(), &pqProgressManager::abort, this, [this] { this->Aborted = true; });
+  QObject::connect(ProgressManager(), &pqProgressManager::abort, this, &pqAbort::abort);
 }
 
 void pqAbort::watch(pqPipelineSource* source)
@@ -91,8 +110,14 @@ void pqAbort::watch(pqPipelineSource* source)
   }
 }
 
-void pqAbort::onProgress(vtkObject* algorithm)
+void pqAbort::onProgress(vtkObject* caller)
 {
+  auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
+  if (IsLive(algorithm))
+  {
+    return;
+  }
+  this->Running = algorithm;
   ProgressManager()->setEnableAbort(true);
   if (!this->SinceEvents.isValid() || this->SinceEvents.elapsed() >= Pause)
   {
@@ -101,14 +126,45 @@ void pqAbort::onProgress(vtkObject* algorithm)
   }
   if (this->Aborted)
   {
-    static_cast<vtkAlgorithm*>(algorithm)->AbortExecuteOn();
+    algorithm->AbortExecuteOn();
   }
 }
 
 void pqAbort::onEnd()
 {
-  this->Aborted = false;
   ProgressManager()->setEnableAbort(false);
+}
+
+void pqAbort::abort()
+{
+  if (!this->Running || this->Aborted)
+  {
+    return;
+  }
+  this->Aborted = true;
+  AnimationScene()->getProxy()->InvokeCommand("Stop");
+  QTimer::singleShot(1, this, &pqAbort::showTimeReached); // when nothing runs any more
+}
+
+/** What is shown is said to be of its own time. */
+void pqAbort::showTimeReached()
+{
+  this->Aborted = false;
+  if (!this->Running)
+  {
+    return;
+  }
+  vtkInformation* data = this->Running->GetOutputDataObject(0)->GetInformation();
+  if (!data->Has(vtkDataObject::DATA_TIME_STEP()))
+  {
+    return;
+  }
+  const double time = data->Get(vtkDataObject::DATA_TIME_STEP());
+  AnimationScene()->setAnimationTime(time);
+  if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
+  {
+    window->statusBar()->showMessage(tr("Aborted at t = %1. Play goes on from there.").arg(time));
+  }
 }
 
 void pqAbort::letEventsThrough()

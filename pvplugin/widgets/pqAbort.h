@@ -2,12 +2,16 @@
 #include <QElapsedTimer>
 #include <QObject>
 
-class QAbstractButton;
+#include <vtkWeakPointer.h>
+
 class pqPipelineSource;
+class vtkAlgorithm;
 class vtkObject;
 
 /// Makes ParaView's Abort button stop vesicles that compute in this process (builtin server): while
-/// one computes, clicks on the button, and repainting, are let through; nothing else is.
+/// one computes, clicks on the button, and repainting, are let through; nothing else is. It stops all
+/// that a click has set off, also the animation, whose time is then that of the state that was
+/// reached. Live vesicles compute in short pieces, and let ParaView handle its events between.
 class pqAbort : public QObject
 {
   Q_OBJECT
@@ -23,7 +27,10 @@ private Q_SLOTS:
 private:
   void watch(pqPipelineSource* source);
   void letEventsThrough();
+  void abort();
+  void showTimeReached();
 
   QElapsedTimer SinceEvents;
   bool Aborted = false;
+  vtkWeakPointer<vtkAlgorithm> Running;
 };

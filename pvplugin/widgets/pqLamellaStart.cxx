@@ -4,6 +4,8 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
+#include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqRepresentation.h>
 #include <pqServerManagerModel.h>
@@ -13,12 +15,18 @@
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMTransferFunctionManager.h>
 
+#include <QMainWindow>
+#include <QStatusBar>
+#include <QTimer>
+#include <QToolBar>
+
 #include <array>
 #include <cstring>
 
 namespace
 {
 constexpr std::array<double, 3> Aside{ 0.4, -0.8, 0.45 }, Up{ 0, 0, 1 };
+constexpr int LookAgain = 100; // milliseconds until the window may be there
 
 /** A view that shows nothing, and looks along z as it was made to. */
 bool IsUntouched(pqView& view)
@@ -51,14 +59,57 @@ pqLamellaStart::pqLamellaStart(QObject* parent)
 void pqLamellaStart::startup()
 {
   this->Abort = new pqAbort(this);
+  QTimer::singleShot(0, this, &pqLamellaStart::showWholeToolBar);
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
     &pqServerManagerModel::representationAdded, this, &pqLamellaStart::look);
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::dataUpdated, this, &pqLamellaStart::tellLiveState);
 }
 
 void pqLamellaStart::shutdown()
 {
   delete this->Abort;
   this->Abort = nullptr;
+}
+
+/** ParaView appends it to a line that is full where the window is less than 1400 pixels wide. */
+void pqLamellaStart::showWholeToolBar()
+{
+  auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+  if (!window || !window->isVisible())
+  {
+    QTimer::singleShot(LookAgain, this, &pqLamellaStart::showWholeToolBar);
+    return;
+  }
+  auto* toolBar = window->findChild<QToolBar*>("Lamella");
+  if (toolBar && toolBar->width() < toolBar->sizeHint().width())
+  {
+    window->removeToolBar(toolBar);
+    window->addToolBar(toolBar); // to the last line
+    toolBar->show();
+  }
+}
+
+void pqLamellaStart::tellLiveState(pqPipelineSource* source)
+{
+  vtkSMProxy* proxy = source->getProxy();
+  vtkSMProperty* state = proxy->GetProperty("LiveState");
+  auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+  if (!state || !window)
+  {
+    return;
+  }
+  if (vtkSMPropertyHelper(proxy, "Live").GetAsInt() != 0)
+  {
+    proxy->UpdatePropertyInformation(state);
+    this->LiveState =
+      QString("%1: %2").arg(source->getSMName(), vtkSMPropertyHelper(state).GetAsString());
+    window->statusBar()->showMessage(this->LiveState);
+  }
+  else if (window->statusBar()->currentMessage() == this->LiveState)
+  {
+    window->statusBar()->clearMessage(); // it is of the past
+  }
 }
 
 void pqLamellaStart::look(pqRepresentation* representation)

@@ -2,13 +2,15 @@
 
 import os
 import re
+import subprocess
 import tempfile
 import unittest
 
 import session
 from paraview import servermanager, simple, smtrace
+from vtkmodules.vtkCommonDataModel import vtkDataObject
 
-SOURCES = {"Vesicle": "sources", "VesicleShape": "sources", "VesicleScene": "sources", "VesicleRun": "sources",
+SOURCES = {"Vesicle": "sources", "VesicleShape": "sources", "VesicleScene": "sources", "FramesOfRun": "sources",
            "VesicleDynamics": "filters", "VesicleFromSurface": "filters", "VesicleFromImage": "filters",
            "MembraneSurface": "filters", "PhaseBoundary": "filters", "MembraneMeasures": "filters"}
 BUDDING = ["grid.nodes=32", "run.end_time=2e-3", "output.frames=3"]
@@ -152,6 +154,43 @@ class Parameters(Session):
             energies.append(session.measures(proxy)["energy"])
         self.assertAlmostEqual(energies[0] / energies[1], 1, 4) # the filter scales phi
 
+    def told(self, proxy, *ports):
+        """What is reported while the outputs are asked for, as by a view: once, by one of them."""
+        with session.messages() as texts:
+            proxy.UpdatePipeline(0)
+            for port in ports:
+                simple.servermanager.Fetch(proxy, idx=port)
+        self.assertEqual(texts[0].count("ERROR"), 1, texts[0])
+        self.assertEqual(proxy.GetDataInformation().GetNumberOfPoints(), 0)
+        return texts[0]
+
+    def test_what_is_wrong_is_told_once(self):
+        vesicle = simple.Vesicle(Nodes=[32, 32, 32], SemiAxis=5)
+        self.assertIn("[shape] semi_axis", self.told(vesicle, 0, 1, 2, 3, 4))
+        vesicle.SemiAxis = 0.7
+        for name, right, key in (("Shape", "oblate", "[shape] kind"), ("Domains", "none", "[domains] kind"),
+                                 ("Volume", "fixed", "[volume] constraint"),
+                                 ("AreaDifference", "free", "[area_difference] constraint")):
+            setattr(vesicle, name, "nonsense")
+            self.assertIn(f'{key}: "nonsense" is not available; allowed: "', self.told(vesicle, 0, 1, 2, 3, 4))
+            setattr(vesicle, name, right)
+            with session.messages() as texts:
+                vesicle.UpdatePipeline(0)
+            self.assertEqual(texts[0], "")
+            self.assertGreater(vesicle.GetDataInformation().GetNumberOfPoints(), 0)
+        self.assertIn("[shape] kind", self.told(simple.VesicleShape(Shape="nonsense")))
+        self.assertIn("fig3_oblate", self.told(simple.VesicleScene(FileName="fig3_oblat"), 0, 1, 2, 3, 4))
+        self.assertIn("no such file", self.told(simple.VesicleRun(FileName="/nowhere"), 0, 1, 2, 3, 4))
+
+    def test_a_run_that_stops_tells_it_once(self):
+        vesicle = simple.Vesicle(Nodes=[32, 32, 32], EndTime=0.05, Volume="ramped", VolumeTargets=[0.2, 0],
+                                 VolumeRate=200, TopologyChanges=0, ReducedVolume=0.8)
+        with session.messages() as texts:
+            vesicle.UpdatePipeline(0.05)
+            for port in range(5):
+                simple.servermanager.Fetch(vesicle, idx=port)
+        self.assertEqual(texts[0].count("the run stopped at t = "), 1, texts[0])
+
     def test_a_wrong_scene_is_told(self):
         with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
             file.write("[shape]\nkind = 'spher'\n")
@@ -161,6 +200,23 @@ class Parameters(Session):
                 proxy.UpdatePipeline()
             self.assertIn(":2: [shape] kind", texts[0])
             self.assertEqual(proxy.GetDataInformation().GetNumberOfPoints(), 0)
+
+
+class Readers(Session):
+    def test_a_stored_run_is_a_vesicle_run(self):
+        """Of all readers that can open its frames the first that is offered."""
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([os.environ["LAMELLA"], "run", "sphere", "-o", folder, "--no-pictures", "--set",
+                            "grid.nodes=32", "--set", "output.frames=3"], check=True, capture_output=True)
+            for file in ("frames/frames.hdf.series", "frames/frame_0001.hdf"):
+                proxy = simple.OpenDataFile(os.path.join(folder, file))
+                self.assertEqual(proxy.GetXMLName(), "FramesOfRun")
+            old = servermanager.ProxyManager().NewProxy("sources", "VesicleRun") # in states of version 0.1
+            self.assertEqual(old.GetClientSideObject().GetClassName(), "vtkVesicleRun")
+            proxy.UpdatePipeline(0)
+            history = simple.servermanager.Fetch(proxy, idx=2)
+            self.assertEqual(history.GetColumnByName("t").GetValue(history.GetNumberOfRows() - 1),
+                             proxy.TimestepValues[-1])
 
 
 class Times(Session):
@@ -179,38 +235,126 @@ class Times(Session):
         rows = vesicle.GetDataInformation(2).GetNumberOfRows()
         self.assertGreater(rows, 1)
 
+    def test_history_is_whole(self):
+        """Also where it is asked for no time, or for the time of another output."""
+        vesicle = simple.Vesicle(Nodes=[32, 32, 32], SemiAxis=0.8, ReducedVolume=0.8, EndTime=2e-4, Frames=3)
+        view = simple.CreateView("RenderView")
+        simple.Show(vesicle, view)
+        view.ViewTime = 2e-4
+        view.Update()
+        for time in (None, 0, 1e-4):
+            if time is not None:
+                vesicle.UpdatePipeline(time)
+            history = simple.servermanager.Fetch(vesicle, idx=2)
+            self.assertEqual(history.GetColumnByName("t").GetValue(history.GetNumberOfRows() - 1), 2e-4)
+
     def test_live(self):
         vesicle = simple.Vesicle(Nodes=[48, 48, 48], EndTime=2e-3, Frames=3, Live=1)
         vesicle.UpdatePipelineInformation()
         self.assertEqual(len(vesicle.TimestepValues), 0)
-        times = [0]
+        times, states = [0], []
         while times[-1] < 2e-3:
-            vesicle.GetClientSideObject().Modified()
-            vesicle.MarkModified(vesicle.SMProxy)
-            vesicle.UpdatePipeline()
+            self.go_on(vesicle)
             times.append(session.measures(vesicle)["t"])
             self.assertGreater(times[-1], times[-2])
+            states.append(self.live_state(vesicle))
         self.assertGreater(len(times), 3)
         self.assertAlmostEqual(times[-1], 2e-3, 12)
+        self.assertRegex(states[0], r"^t = [0-9.e-]+ of 0.002$")
+        self.assertEqual(states[-1], "ended at t = 0.002 of 0.002")
 
-    def test_abort(self):
-        vesicle = simple.Vesicle(Nodes=[48, 48, 48], EndTime=2e-3, Frames=2)
-        running, progress = vesicle.GetClientSideObject(), []
+    def test_live_after_changes_and_errors(self):
+        vesicle = simple.Vesicle(Nodes=[32, 32, 32], EndTime=1, Live=1)
+        vesicle.UpdatePipeline()
+        while "left" not in self.live_state(vesicle):
+            self.go_on(vesicle)
+        self.assertRegex(self.live_state(vesicle), r"^t = [0-9.e-]+ of 1, \d+ (s|min|h) left at this pace$")
+        vesicle.SemiAxis = 5
+        with session.messages():
+            vesicle.UpdatePipeline()
+        self.assertEqual(self.live_state(vesicle), "")
+        vesicle.SemiAxis = 0.7
+        vesicle.EndTime = 1e-5
+        vesicle.UpdatePipeline()
+        while not self.live_state(vesicle).startswith("ended"):
+            self.go_on(vesicle)
+        self.assertEqual(session.measures(vesicle)["t"], 1e-5)
+        vesicle.EndTime = 1
+        vesicle.UpdatePipeline()
+        self.assertRegex(self.live_state(vesicle), "^t = .* of 1")
+
+    @staticmethod
+    def go_on(vesicle):
+        """As ParaView does a few times a second."""
+        vesicle.GetClientSideObject().Modified()
+        vesicle.MarkModified(vesicle.SMProxy)
+        vesicle.UpdatePipeline()
+
+    @staticmethod
+    def live_state(vesicle):
+        vesicle.UpdatePropertyInformation()
+        return vesicle.SMProxy.GetProperty("LiveState").GetElement(0)
+
+    def abort_on_the_way_to(self, proxy, time, count=6):
+        """Asks for a time, and aborts at the count-th progress; the time reached."""
+        running, progress = proxy.GetClientSideObject(), []
 
         def abort(*_):
             progress.append(running.GetProgress())
-            running.AbortExecuteOn()
+            if len(progress) == count:
+                running.AbortExecuteOn()
 
         observer = running.AddObserver("ProgressEvent", abort)
-        vesicle.UpdatePipeline(2e-3)
+        proxy.UpdatePipeline(time)
         running.RemoveObserver(observer)
-        time = session.measures(vesicle)["t"]
-        self.assertTrue(progress and 0 <= time < 2e-3, (progress, time))
-        running.AbortExecuteOff()
-        running.Modified()
-        vesicle.MarkModified(vesicle.SMProxy)
-        vesicle.UpdatePipeline(2e-3)
-        self.assertAlmostEqual(session.measures(vesicle)["t"], 2e-3, 12)
+        return self.time_of(proxy)
+
+    def time_of(self, proxy):
+        """As every output says it."""
+        running = proxy.GetClientSideObject()
+        times = {running.GetOutputDataObject(port).GetInformation().Get(vtkDataObject.DATA_TIME_STEP())
+                 for port in range(running.GetNumberOfOutputPorts())}
+        times.add(running.GetOutputDataObject(0).GetFieldData().GetArray("t").GetValue(0))
+        self.assertEqual(len(times), 1, times)
+        return times.pop()
+
+    def test_abort(self):
+        shape = simple.VesicleShape(Nodes=[32, 32, 32])
+        for proxy in (simple.Vesicle(Nodes=[32, 32, 32], EndTime=2e-3, Frames=3),
+                      simple.VesicleScene(FileName="fig3_oblate", Overrides=["grid.nodes=32", "run.end_time=2e-3"]),
+                      simple.VesicleDynamics(Input=shape, EndTime=2e-3, Frames=3)):
+            self.assertEqual(self.abort_on_the_way_to(proxy, 2e-3, 1), 0)
+            reached = self.abort_on_the_way_to(proxy, 2e-3)
+            self.assertLess(0, reached)
+            self.assertLess(reached, 2e-3)
+            self.assertEqual(self.abort_on_the_way_to(proxy, reached), reached) # is there
+            for time in (1e-3, 2e-3, 0, 2e-3):
+                proxy.UpdatePipeline(time)
+                self.assertEqual(self.time_of(proxy), time)
+            if proxy.GetXMLName() == "VesicleScene":
+                proxy.Overrides = ["grid.nodes=32", "run.end_time=2e-3", "membrane.spontaneous_curvature=1"]
+            else:
+                proxy.SpontaneousCurvature = 1
+            self.assertLess(self.abort_on_the_way_to(proxy, 2e-3), 2e-3)
+            proxy.UpdatePipeline(2e-3) # the same time again
+            self.assertEqual(self.time_of(proxy), 2e-3)
+
+    def test_abort_live(self):
+        vesicle = simple.Vesicle(Nodes=[32, 32, 32], EndTime=1, Live=1)
+        running = vesicle.GetClientSideObject()
+        observer = running.AddObserver("ProgressEvent", lambda *_: running.AbortExecuteOn())
+        vesicle.UpdatePipeline()
+        running.RemoveObserver(observer)
+        self.assertTrue(self.live_state(vesicle).startswith("ended")) # stays where it is
+        vesicle.Live = 0
+        vesicle.EndTime = 1e-4
+        vesicle.UpdatePipeline(1e-4)
+        self.assertEqual(session.measures(vesicle)["t"], 1e-4)
+        vesicle.Live = 1
+        vesicle.EndTime = 1
+        vesicle.UpdatePipeline()
+        self.assertRegex(self.live_state(vesicle), "^t = .* of 1")
+        self.assertGreater(session.measures(vesicle)["t"], 0)
 
 
 class Pictures(Session):
@@ -261,12 +405,20 @@ class States(Session):
         vesicle = simple.Vesicle(Nodes=[32, 32, 32], Shape="torus", SpontaneousCurvature=-2)
         view = simple.CreateView("RenderView")
         simple.Show(vesicle, view)
+        simple.Show(simple.MembraneSurface(Input=simple.VesicleShape(Nodes=[32, 32, 32])), view)
         script = smtrace.stop_trace()
         self.assertIn("Vesicle(", script)
+        self.assertEqual(script.count("LoadPlugin("), 1)
         self.tearDown()
         exec(compile(script, "trace", "exec"), {})
-        (again,) = simple.GetSources().values()
+        again = simple.FindSource("Vesicle1")
         self.assertEqual((again.Shape, again.SpontaneousCurvature), ("torus", -2))
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "trace.py")
+            with open(file, "w", encoding="utf-8") as stream:
+                stream.write(script)
+            plain = subprocess.run([os.environ["PVPYTHON"], file], capture_output=True, text=True, check=False)
+        self.assertEqual((plain.returncode, plain.stderr), (0, ""))
 
 
 if __name__ == "__main__":

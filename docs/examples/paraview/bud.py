@@ -33,6 +33,5 @@ colors.RescaleTransferFunction(-8, 8)
 membrane.SetScalarBarVisibility(view, True)
 SaveScreenshot(os.path.join(folder, "curvature.png"), view)
 
-vesicle.UpdatePipeline(vesicle.TimestepValues[-1])
-energy = servermanager.Fetch(vesicle, idx=2).GetColumnByName("energy")  # a row for each step
+energy = servermanager.Fetch(vesicle, idx=2).GetColumnByName("energy")  # a row for each step so far
 print(f"energy {energy.GetValue(0):.1f} -> {energy.GetValue(energy.GetNumberOfTuples() - 1):.1f}")
