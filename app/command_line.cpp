@@ -71,7 +71,7 @@ constexpr const char* movie_notes = R"(Examples:
   lamella movie oblate -o oblate.webm --turntable
   lamella movie oblate -o pictures              pictures in a folder
 
-Without ffmpeg there are pictures in a folder instead.)";
+Movies end in .mp4, .webm, .avi or .gif. Without ffmpeg there are pictures in a folder instead.)";
 
 constexpr const char* export_notes = R"(Examples:
   lamella export oblate                         oblate/surfaces/membrane.pvd and its files
@@ -263,7 +263,7 @@ void add_movie(CLI::App& app, MovieOptions& options) {
   command.add_option("folder", options.folder, "Output folder of a run")->required()->type_name("");
   command
       .add_option("-o,--output", options.output,
-                  "File (.mp4, .webm) or folder for pictures (default: movie.mp4 in the run's)")
+                  "File (.mp4, .webm, .avi, .gif) or folder for pictures (default: movie.mp4 in the run's)")
       ->type_name("NAME");
   command.add_option("--width", options.width, "In pixels")
       ->check(CLI::Range(200, 4000).description(""))

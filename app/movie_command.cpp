@@ -13,6 +13,7 @@
 #include <QStandardPaths>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,22 +54,83 @@ private:
   int count_ = 0;
 };
 
+/// What an ending stands for: the form of the file, and encoders of ffmpeg that can write it, the
+/// best first, with their options. Not every ffmpeg has all of them.
+struct Format {
+  std::string_view ending;
+  const char* muxer;
+  struct Encoder {
+    const char* name;
+    QStringList options;
+  };
+  std::vector<Encoder> encoders;
+};
+
+const std::vector<Format>& formats() {
+  const QStringList yuv{"-pix_fmt", "yuv420p"}, mpeg4 = yuv + QStringList{"-q:v", "2"},
+                                                fast{"-movflags", "+faststart"};
+  static const std::vector<Format> all{
+      {".mp4",
+       "mp4",
+       {{"libx264", yuv + QStringList{"-crf", "18"} + fast},
+        {"libopenh264", yuv + QStringList{"-b:v", "8M"} + fast},
+        {"mpeg4", mpeg4 + fast}}},
+      {".webm",
+       "webm",
+       {{"libvpx-vp9", yuv + QStringList{"-crf", "28", "-b:v", "0"}},
+        {"libvpx", yuv + QStringList{"-crf", "10", "-b:v", "8M"}}}},
+      {".avi", "avi", {{"mpeg4", mpeg4 + QStringList{"-vtag", "xvid"}}}},
+      {".gif", "gif", {{"gif", {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"}}}},
+  };
+  return all;
+}
+
+/// The format of a file by its ending; nothing for a folder of pictures. Throws UsageError.
+const Format* format_of(const fs::path& output) {
+  std::string ending = output.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto found = std::ranges::find(formats(), ending, &Format::ending);
+  if (found != formats().end()) return &*found;
+  std::error_code ignored;
+  if (ending.empty() || fs::is_directory(output, ignored)) return nullptr;
+  throw UsageError(
+      fmt::format("--output {}: movies end in .mp4, .webm, .avi or .gif; a name without "
+                  "an ending is a folder for pictures",
+                  output.string()));
+}
+
+/// The best encoder that this ffmpeg has for a format. Throws StoreError where it has none.
+const Format::Encoder& encoder_for(const QString& ffmpeg, const Format& format) {
+  QProcess process;
+  process.start(ffmpeg, {"-hide_banner", "-encoders"});
+  process.waitForFinished(-1);
+  const QString list = QString::fromUtf8(process.readAllStandardOutput());
+  std::vector<std::string> names;
+  for (const Format::Encoder& encoder : format.encoders) {
+    if (list.contains(QString(" %1 ").arg(encoder.name))) return encoder;
+    names.push_back(encoder.name);
+  }
+  throw StoreError(
+      fmt::format("{} movies need an encoder that this ffmpeg does not have ({}); choose "
+                  "another ending, or pictures: -o FOLDER",
+                  format.ending, fmt::join(names, " or ")));
+}
+
 /// A film that ffmpeg makes. The file appears whole or not at all.
 class Encoder : public Film {
 public:
-  Encoder(const QString& program, fs::path file, const MovieOptions& options)
+  Encoder(const QString& program, const Format& format, fs::path file, const MovieOptions& options)
       : file_(std::move(file)), part_(file_.string() + ".part") {
-    const bool webm = file_.extension() == ".webm";
-    const QStringList codec =
-        webm ? QStringList{"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-f", "webm"}
-             : QStringList{"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
+    const Format::Encoder& encoder = encoder_for(program, format);
     process_.setProcessChannelMode(QProcess::SeparateChannels);
     process_.setStandardOutputFile(QProcess::nullDevice());
-    process_.start(program,
-                   QStringList{"-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba", "-s",
-                               QString("%1x%2").arg(options.width).arg(options.height), "-r",
-                               QString::number(options.rate), "-i", "-", "-pix_fmt", "yuv420p"} +
-                       codec + QStringList{QString::fromStdString(part_.string())});
+    process_.start(
+        program,
+        QStringList{"-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba", "-s",
+                    QString("%1x%2").arg(options.width).arg(options.height), "-r",
+                    QString::number(options.rate), "-i", "-", "-c:v", encoder.name} +
+            encoder.options +
+            QStringList{"-f", format.muxer, "file:" + QString::fromStdString(part_.string())});
     if (!process_.waitForStarted()) fail("ffmpeg could not be started");
   }
   ~Encoder() override {
@@ -107,13 +169,14 @@ private:
   QProcess process_;
 };
 
-/// By ffmpeg where it is installed; if not, or if the output is neither .mp4 nor .webm, as pictures
-/// in a folder, whose name `output` then is.
+/// By ffmpeg where it is installed; if not, or if the output has no ending, as pictures in a
+/// folder, whose name `output` then is.
 std::unique_ptr<Film> film_for(fs::path& output, const MovieOptions& options) {
-  const bool video = output.extension() == ".mp4" || output.extension() == ".webm";
+  const Format* format = format_of(output);
   const QString program = QStandardPaths::findExecutable("ffmpeg");
-  if (video && !program.isEmpty()) return std::make_unique<Encoder>(program, output, options);
-  if (video) {
+  if (format && !program.isEmpty())
+    return std::make_unique<Encoder>(program, *format, output, options);
+  if (format) {
     std::fputs("lamella: ffmpeg is not installed (Debian: ffmpeg); pictures instead of a movie\n",
                stderr);
     output.replace_extension();
@@ -124,6 +187,7 @@ std::unique_ptr<Film> film_for(fs::path& output, const MovieOptions& options) {
 void check(const MovieOptions& options) {
   if (options.width % 2 != 0 || options.height % 2 != 0)
     throw UsageError("--width, --height: movies need even numbers of pixels");
+  format_of(options.output);
 }
 
 } // namespace

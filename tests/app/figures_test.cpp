@@ -429,6 +429,67 @@ TEST_F(Cli, makes_a_movie_or_pictures) {
   EXPECT_EQ(call(words("movie nothing")).code, 2);
 }
 
+/// Movies with an ffmpeg that knows the encoders given, and writes its arguments into its file.
+class Movies : public Cli {
+protected:
+  Movies() : path_(std::getenv("PATH")) {}
+  ~Movies() override { setenv("PATH", path_.c_str(), 1); }
+
+  void SetUp() override {
+    Cli::SetUp();
+    ASSERT_EQ(call(quick({"-o", "run"})).code, 0);
+  }
+
+  void use_ffmpeg(const std::string& encoders) {
+    fs::create_directory(base_ / "bin");
+    write(base_ / "bin" / "ffmpeg", "#!/bin/sh\ncase \"$*\" in\n*-encoders*) echo ' V....D " +
+                                        encoders +
+                                        " '; exit ;;\nesac\ncat > /dev/null\nfor last; do :; done\n"
+                                        "echo \"$@\" > \"${last#file:}\"\n");
+    fs::permissions(base_ / "bin" / "ffmpeg", fs::perms::all);
+    setenv("PATH", ((base_ / "bin").string() + ":" + path_).c_str(), 1);
+  }
+
+  Result movie(const std::string& output) {
+    return call(
+        words("movie run --seconds 0.2 --rate 10 --width 240 --height 200", {"--output=" + output}));
+  }
+
+private:
+  std::string path_;
+};
+
+TEST_F(Movies, TakeTheEncoderThatThereIs) {
+  const std::vector<std::array<std::string, 3>> cases{
+      {"libx264", "x.mp4", "-c:v libx264"},   {"libx264", "X.MP4", "-c:v libx264"},
+      {"libx264", "a:b.mp4", "-c:v libx264"}, {"libx264", "-x.mp4", "-c:v libx264"},
+      {"mpeg4", "plain.mp4", "-c:v mpeg4"},   {"mpeg4", "x.avi", "-c:v mpeg4"},
+      {"libvpx", "x.webm", "-c:v libvpx "},   {"gif", "x.gif", "paletteuse"},
+  };
+  for (const auto& [encoder, output, expected] : cases) {
+    use_ffmpeg(encoder);
+    const Result result = movie(output);
+    EXPECT_EQ(result.code, 0) << output << ": " << result.err;
+    EXPECT_EQ(result.out, output + "\n");
+    EXPECT_THAT(text_of(work() / output), HasSubstr(expected));
+    EXPECT_FALSE(fs::exists(work() / (output + ".part")));
+  }
+}
+
+TEST_F(Movies, SayWhatCannotBeWritten) {
+  use_ffmpeg("gif");
+  EXPECT_THAT(movie("x.webm").err, HasSubstr("(libvpx-vp9 or libvpx); choose another ending"));
+  const Result other = movie("x.mov");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr(".mp4, .webm, .avi or .gif"));
+  EXPECT_EQ(names_in(work()), std::set<std::string>{"run"});
+  setenv("PATH", "/nowhere", 1);
+  const Result without = movie("x.gif");
+  EXPECT_EQ(without.code, 0);
+  EXPECT_THAT(without.err, HasSubstr("ffmpeg is not installed"));
+  EXPECT_EQ(names_in(work() / "x").size(), 2u);
+}
+
 TEST_F(Cli, lists_the_figures) {
   const Result result = call({"figure"});
   EXPECT_EQ(result.code, 0);
