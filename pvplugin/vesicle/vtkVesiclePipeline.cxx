@@ -33,7 +33,7 @@ enum Port
   NumberOfPorts
 };
 
-constexpr std::chrono::milliseconds Slice{ 200 };             // of computing between two live pictures
+constexpr std::chrono::milliseconds Slice{ 200 }; // of computing between two live pictures
 constexpr std::chrono::seconds Memory{ 5 }, LeastMemory{ 2 }; // of a live vesicle's pace
 constexpr double RunShare = 0.9;                              // of an update's progress
 
