@@ -78,7 +78,7 @@ std::string checkpoint_text(const fs::path& file, const Checkpoint& c) {
   const Scene scene = parse_scene(c.scene, "the scene in " + file.string());
   return fmt::format("{}: a checkpoint, and a frame\n", file.string()) + scene_rows(scene) +
          row("time", fmt::format("{:.8g} of {:g}, after {} steps in {}", c.state.measures.time,
-                                 scene.end_time, c.state.steps, duration_text(c.wall_seconds))) +
+                                 scene.end(), c.state.steps, duration_text(c.wall_seconds))) +
          row("next step", fmt::format("about {:.3g}", c.state.last_dt)) +
          measures_rows(c.state.measures) + events_rows(c.state.events, scene.grid().spacing) +
          row("written by", fmt::format("lamella {}, {}, {} thread{}", c.program, c.arithmetic,
@@ -123,8 +123,8 @@ std::string folder_text(const fs::path& folder) {
   text += row("state", state_text(status));
   if (!status.origin.empty()) text += row("branch of", status.origin);
   if (const std::vector<Measures> rows = read_history(folder / "history.csv"); !rows.empty()) {
-    text += row("time", fmt::format("{:.8g} of {:g}, after {} steps", rows.back().time,
-                                    scene.end_time, rows.size() - 1));
+    text += row("time", fmt::format("{:.8g} of {:g}, after {} steps", rows.back().time, scene.end(),
+                                    rows.size() - 1));
     text += row("energy", fmt::format("{:.8g} -> {:.8g}", rows.front().energy, rows.back().energy));
     text += row("reduced volume", fmt::format("{:.6g} -> {:.6g}", rows.front().reduced_volume,
                                               rows.back().reduced_volume));

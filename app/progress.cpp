@@ -28,9 +28,7 @@ std::size_t line_width() {
 } // namespace
 
 Progress::Progress(const Scene& scene, double from)
-    : from_(from), end_time_(scene.end_time),
-      longest_step_(scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step
-                                                     : scene.end_time / 16),
+    : from_(from), end_time_(scene.end()), longest_step_(scene.longest_step()),
       spacing_(scene.grid().spacing), terminal_(isatty(STDERR_FILENO)), start_(Clock::now()),
       last_(start_) {}
 

@@ -67,6 +67,8 @@ SimulationState branched(SimulationState state, std::span<const Key* const> chan
   if (state.c_stepper) forget(*state.c_stepper);
   state.excess.setZero();
   state.error = state.last_dt = state.response_dt = 0;
+  state.failures = 0;
+  state.driven = 1;
   return state;
 }
 

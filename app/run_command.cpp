@@ -130,7 +130,7 @@ int draw(const RunFolder& folder, const RunOptions& options) {
 std::string opening(const Scene& scene, const std::string& origin) {
   const Grid grid = scene.grid();
   return fmt::format("{}: {} x {} x {} nodes, {}to t = {:g}, {} thread{}\n", scene.name, grid.nx(),
-                     grid.ny(), grid.nz(), origin, scene.end_time, thread_count(),
+                     grid.ny(), grid.nz(), origin, scene.end(), thread_count(),
                      thread_count() == 1 ? "" : "s");
 }
 
@@ -163,6 +163,9 @@ void Run::report(const Outcome& outcome) const {
   else if (outcome.code != success)
     remark(fmt::format("the run {}; stored up to there", words));
   if (!warning.empty()) remark("warning: " + warning);
+  if (outcome.code != success || !outcome.reason.empty()) return;
+  if (const std::string word = word_on_end_time(scene_, course_, sim_.ramping()); !word.empty())
+    remark("note: " + word);
 }
 
 std::string contents(const RunFolder& folder, bool pictures) {
@@ -176,7 +179,8 @@ void Run::finish(const Outcome& outcome) {
   const RunStatus::State state = outcome.code == success     ? RunStatus::State::finished
                                  : outcome.code == resumable ? RunStatus::State::interrupted
                                                              : RunStatus::State::stopped;
-  folder_.write_summary(summary(scene_, course_, sim_.events(), outcome, loop_.wall_seconds()));
+  folder_.write_summary(
+      summary(scene_, course_, sim_.events(), outcome, sim_.ramping(), loop_.wall_seconds()));
   folder_.write(status(state, outcome.reason));
   report(outcome);
 }
@@ -275,7 +279,7 @@ int branch_off(const RunOptions& options, const Scene& scene, const Checkpoint& 
   Checkpoint from = checkpoint;
   from.state = branched(std::move(from.state), changed);
   const std::unique_ptr<Simulation> sim = simulation_at(scene, &from);
-  if (sim->time() >= scene.end_time)
+  if (sim->time() >= scene.end())
     throw UsageError(fmt::format("the state is at t = {:.6g} already; set run.end_time beyond it, "
                                  "as in --set run.end_time={:g}",
                                  sim->time(), 2 * sim->time()));

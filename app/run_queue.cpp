@@ -81,9 +81,7 @@ struct Job {
   QProcess* process = new QProcess; ///< deletes itself when Qt comes by again
   Clock::time_point begin = Clock::now();
 
-  double share() const {
-    return share_done(last_time(order.folder / "history.csv"), scene.end_time);
-  }
+  double share() const { return share_done(last_time(order.folder / "history.csv"), scene.end()); }
 };
 
 class Queue {

@@ -100,17 +100,53 @@ std::string table(const Scene& scene, const Measures& start, const Measures& end
   return text + row("genus", "", start.genus, end.genus);
 }
 
+/// The end time that a scene has by default.
+double fitting_end(Scene scene) {
+  scene.end_time = 0;
+  return scene.end();
+}
+
+/// Of the energy where nothing drove the vesicle.
+std::string rise_text(const Course& course) {
+  if (course.rises() == 0) return "Energy: never rose in a step that nothing drove\n";
+  return fmt::format(
+      "Energy: rose in {} step{} that nothing drove, at most by {:.1e} (relative), at "
+      "t = {:.6g}\n",
+      course.rises(), course.rises() == 1 ? "" : "s", course.energy_rise(), course.time_of_rise());
+}
+
 } // namespace
 
 Course::Course(const Measures& start)
     : start_(start), end_(start), area_drift_(area_drift_of(start)),
-      volume_drift_(std::abs(start.volume_drift)) {}
+      volume_drift_(std::abs(start.volume_drift)), energies_{{start.time, start.energy}} {}
 
 void Course::add(const Measures& measures) {
+  constexpr double rounding = 1e-9;
+  const double rise = measures.energy_rise.value_or(0);
+  if (rise > rounding) rises_++;
+  if (rise > energy_rise_) {
+    energy_rise_ = rise;
+    time_of_rise_ = measures.time;
+  }
+  way_ += measures.dt * std::max(end_.max_speed, measures.max_speed);
+  energies_.push_back({measures.time, measures.energy});
   end_ = measures;
   steps_++;
   area_drift_ = std::max(area_drift_, area_drift_of(measures));
   volume_drift_ = std::max(volume_drift_, std::abs(measures.volume_drift));
+}
+
+double Course::settled_at() const {
+  constexpr double of_change = 1e-3, of_energy = 1e-6;
+  const auto [first, last] =
+      std::ranges::minmax(energies_, {}, [](const auto& point) { return point[1]; });
+  const double little =
+      std::max(of_change * (last[1] - first[1]), of_energy * std::abs(end_.energy));
+  const auto far = std::ranges::find_if(energies_.rbegin(), energies_.rend(), [&](const auto& p) {
+    return std::abs(p[1] - end_.energy) > little;
+  });
+  return far == energies_.rend() ? start_.time : (*far)[0];
 }
 
 std::string words_for(const Outcome& outcome, double time) {
@@ -133,8 +169,29 @@ std::string caution(std::span<const Event> events) {
                      first->time);
 }
 
+std::string word_on_end_time(const Scene& scene, const Course& course, bool ramping) {
+  constexpr double little_way = 0.05; // grid spacings
+  constexpr double long_ago = 0.1;    // of the run
+  const double h = scene.grid().spacing, end = course.end().time;
+  if (ramping)
+    return fmt::format("at the end, t = {:.6g}, a constraint was still on its way to its target; a "
+                       "later run.end_time, or a higher rate, lets it arrive",
+                       end);
+  if (course.way() < little_way * h)
+    return fmt::format(
+        "nothing can have moved by more than {:.2g} grid spacings until the end, t = "
+        "{:.6g}; shapes of the size of this box change within about {:.2g}, which "
+        "run.end_time = 0 stands for",
+        course.way() / h, end, fitting_end(scene));
+  if (const double settled = course.settled_at(); settled < long_ago * end)
+    return fmt::format("all was over at t = {:.2g}, a {:.0f}th of the run; an earlier run.end_time "
+                       "shows more of it, and stop.energy_rate ends runs at rest",
+                       settled, end / settled);
+  return {};
+}
+
 std::string summary(const Scene& scene, const Course& course, std::span<const Event> events,
-                    const Outcome& outcome, double seconds) {
+                    const Outcome& outcome, bool ramping, double seconds) {
   const Grid grid = scene.grid();
   std::string text = fmt::format("{}\nscene {}, {} x {} x {} nodes, spacing {:.5g}\n\n",
                                  scene.title.empty() ? scene.name : scene.title, scene.name,
@@ -145,10 +202,15 @@ std::string summary(const Scene& scene, const Course& course, std::span<const Ev
   text += table(scene, course.start(), course.end());
   text += fmt::format("\nLargest drift over the run: area {:.1e}, volume {:.1e} (relative)\n",
                       course.area_drift(), course.volume_drift());
+  text += rise_text(course);
   if (!events.empty()) text += "\nEvents\n";
   for (const Event& event : events) text += fmt::format("  {}\n", to_text(event, grid.spacing));
   const std::string warning = caution(events);
   if (!warning.empty()) text += fmt::format("\nWarning: {}\n", warning);
+  const std::string word = outcome.code == success && outcome.reason.empty()
+                               ? word_on_end_time(scene, course, ramping)
+                               : "";
+  if (!word.empty()) text += fmt::format("\nNote: {}\n", word);
   return text;
 }
 

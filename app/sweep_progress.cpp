@@ -29,9 +29,9 @@ void SweepProgress::begin(const Scene& scene) {
 void SweepProgress::update(double time) {
   if (!terminal_ || Clock::now() - shown_ < std::chrono::milliseconds(200)) return;
   shown_ = Clock::now();
-  std::string line = fmt::format("run {} of {}{}   {}, tolerance {:g}   t = {:.1e} of {:.1e}", run_,
-                                 runs_, time_left(), grid_text(*scene_), scene_->numerics.tolerance,
-                                 time, scene_->end_time);
+  std::string line =
+      fmt::format("run {} of {}{}   {}, tolerance {:g}   t = {:.1e} of {:.1e}", run_, runs_,
+                  time_left(), grid_text(*scene_), scene_->numerics.tolerance, time, scene_->end());
   line.resize(width, ' ');
   std::fprintf(stderr, "\r%s", line.c_str());
 }

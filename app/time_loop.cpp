@@ -43,7 +43,7 @@ std::optional<std::string> TimeLoop::reason_to_stop() {
 
 double TimeLoop::frame_time(int number) const {
   const int last = scene_.output.frames - 1;
-  return number == last ? scene_.end_time : scene_.end_time * number / last;
+  return number == last ? scene_.end() : scene_.end() * number / last;
 }
 
 Outcome TimeLoop::run(const std::function<void(bool)>& store) {

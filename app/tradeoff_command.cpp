@@ -66,9 +66,9 @@ Reference finest_run(std::span<const Scene> scenes) {
 std::optional<Reference> known_reference(const fs::path& given, const Scene& scene) {
   if (given.empty()) return builtin_reference(scene);
   Reference reference = read_reference(given);
-  if (!reference.covers(scene.end_time))
+  if (!reference.covers(scene.end()))
     throw UsageError(fmt::format("{}: ends before the run, whose end_time is {:g}", given.string(),
-                                 scene.end_time));
+                                 scene.end()));
   return reference;
 }
 
@@ -132,7 +132,7 @@ int tradeoff(const TradeoffOptions& options) {
   set_thread_count(options.threads);
   watch_for_interrupt();
   if (!reference) reference = finest_run(scenes);
-  say(fmt::format("{} to t = {:g}, compared with {}\n", scene.name, scene.end_time,
+  say(fmt::format("{} to t = {:g}, compared with {}\n", scene.name, scene.end(),
                   reference->source()));
 
   const std::vector<Trial> trials = carry_out(scene, scenes, *reference, folder, options.repeats);

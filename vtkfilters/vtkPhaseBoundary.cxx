@@ -101,8 +101,8 @@ std::string PlacesText(const lamella::PhaseBoundary& boundary, const lamella::Im
   std::string text;
   for (const Eigen::Vector3d& x : boundary.unresolved())
   {
-    text +=
-      (text.empty() ? "" : ", ") + lamella::place_text(vesicle.in_image({ x[0], x[1], x[2] }));
+    text += (text.empty() ? "" : ", ") +
+      lamella::place_text(vesicle.in_image({ x[0], x[1], x[2] }), vesicle.frame.grid.spacing);
   }
   return text;
 }

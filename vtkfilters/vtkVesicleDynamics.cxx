@@ -78,6 +78,7 @@ lamellaProperty(vtkVesicleDynamics, LineTension, double, line.tension);
 lamellaProperty(vtkVesicleDynamics, LineGeodesicModulus, double, line.geodesic_modulus);
 lamellaProperty(vtkVesicleDynamics, LineTorsionModulus, double, line.torsion_modulus);
 lamellaProperty(vtkVesicleDynamics, LineNormalModulus, double, line.normal_modulus);
+lamellaProperty(vtkVesicleDynamics, LineDrag, double, line.drag);
 lamellaProperty(vtkVesicleDynamics, StretchModulus, double, stretch.modulus);
 lamellaChoiceProperty(vtkVesicleDynamics, VolumeConstraint, "volume", "constraint");
 lamellaRampProperty(vtkVesicleDynamics, Volume, volume.ramp);

@@ -84,15 +84,15 @@ public:
   ///@}
 
   ///@{
-  /** [membrane] bending_modulus: bending modulus of the Helfrich energy. A number from 1e-06 to
-   * 1e+06; energy. Default 1. */
+  /** [membrane] bending_modulus: bending modulus of the Helfrich energy. A number from 1e-30 to
+   * 1e+30; energy. Default 1. */
   void SetBendingModulus(double value);
   double GetBendingModulus();
   ///@}
 
   ///@{
   /** [membrane] spontaneous_curvature: preferred sum of the principal curvatures, which is -2 on
-   * the unit sphere. A number from -1e+06 to 1e+06; 1/length. Default 0. */
+   * the unit sphere. A number from -1e+30 to 1e+30; 1/length. Default 0. */
   void SetSpontaneousCurvature(double value);
   double GetSpontaneousCurvature();
   ///@}
@@ -105,7 +105,7 @@ public:
   ///@}
 
   ///@{
-  /** [ld] bending_modulus: bending modulus kappa of the Ld phase. A number from 1e-06 to 1e+06;
+  /** [ld] bending_modulus: bending modulus kappa of the Ld phase. A number from 1e-30 to 1e+30;
    * energy. Default 1. */
   void SetLdBendingModulus(double value);
   double GetLdBendingModulus();
@@ -113,20 +113,20 @@ public:
 
   ///@{
   /** [ld] spontaneous_curvature: its spontaneous curvature C: preferred sum of the principal
-   * curvatures. A number from -1e+06 to 1e+06; 1/length. Default 0. */
+   * curvatures. A number from -1e+30 to 1e+30; 1/length. Default 0. */
   void SetLdSpontaneousCurvature(double value);
   double GetLdSpontaneousCurvature();
   ///@}
 
   ///@{
   /** [ld] gaussian_modulus: its Gaussian modulus kappa_G; only the difference between the phases
-   * has an effect. A number from -1e+06 to 1e+06; energy. Default 0. */
+   * has an effect. A number from -1e+30 to 1e+30; energy. Default 0. */
   void SetLdGaussianModulus(double value);
   double GetLdGaussianModulus();
   ///@}
 
   ///@{
-  /** [lo] bending_modulus: bending modulus kappa of the Lo phase. A number from 1e-06 to 1e+06;
+  /** [lo] bending_modulus: bending modulus kappa of the Lo phase. A number from 1e-30 to 1e+30;
    * energy. Default 1. */
   void SetLoBendingModulus(double value);
   double GetLoBendingModulus();
@@ -134,49 +134,57 @@ public:
 
   ///@{
   /** [lo] spontaneous_curvature: its spontaneous curvature C: preferred sum of the principal
-   * curvatures. A number from -1e+06 to 1e+06; 1/length. Default 0. */
+   * curvatures. A number from -1e+30 to 1e+30; 1/length. Default 0. */
   void SetLoSpontaneousCurvature(double value);
   double GetLoSpontaneousCurvature();
   ///@}
 
   ///@{
   /** [lo] gaussian_modulus: its Gaussian modulus kappa_G; only the difference between the phases
-   * has an effect. A number from -1e+06 to 1e+06; energy. Default 0. */
+   * has an effect. A number from -1e+30 to 1e+30; energy. Default 0. */
   void SetLoGaussianModulus(double value);
   double GetLoGaussianModulus();
   ///@}
 
   ///@{
   /** [line] tension: line tension kappa_l: energy of the phase boundary per length. A number from 0
-   * to 1e+06; energy/length. Default 0. */
+   * to 1e+30; energy/length. Default 0. */
   void SetLineTension(double value);
   double GetLineTension();
   ///@}
 
   ///@{
   /** [line] geodesic_modulus: kappa_g: energy per length and geodesic curvature. A number from
-   * -1e+06 to 1e+06; energy. Default 0. */
+   * -1e+30 to 1e+30; energy. Default 0. */
   void SetLineGeodesicModulus(double value);
   double GetLineGeodesicModulus();
   ///@}
 
   ///@{
   /** [line] torsion_modulus: kappa_tau: energy per length and geodesic torsion. A number from
-   * -1e+06 to 1e+06; energy. Default 0. */
+   * -1e+30 to 1e+30; energy. Default 0. */
   void SetLineTorsionModulus(double value);
   double GetLineTorsionModulus();
   ///@}
 
   ///@{
-  /** [line] normal_modulus: kappa_n: energy per length and normal curvature. A number from -1e+06
-   * to 1e+06; energy. Default 0. */
+  /** [line] normal_modulus: kappa_n: energy per length and normal curvature. A number from -1e+30
+   * to 1e+30; energy. Default 0. */
   void SetLineNormalModulus(double value);
   double GetLineNormalModulus();
   ///@}
 
   ///@{
+  /** [line] drag: drag of the phase boundary along the membrane, per length, over that of the
+   * membrane, per area; 0 stands for the radius of the sphere of the vesicle's area. A number from 0
+   * to 1e+30; length. Default 0. */
+  void SetLineDrag(double value);
+  double GetLineDrag();
+  ///@}
+
+  ///@{
   /** [stretch] modulus: modulus mu that resists local stretch; 0: the membrane flows freely within
-   * each phase. A number from 0 to 1e+06; energy/length^2. Default 0. */
+   * each phase. A number from 0 to 1e+30; energy/length^2. Default 0. */
   void SetStretchModulus(double value);
   double GetStretchModulus();
   ///@}
@@ -197,14 +205,15 @@ public:
   ///@}
 
   ///@{
-  /** [volume] rate: ramped: change of the reduced volume per unit of time. A number above 0 and up
-   * to 1e+06; 1/time. Default 5. */
+  /** [volume] rate: ramped: change of the reduced volume per unit of time; 0 stands for
+   * 0.4 kappa / R^4, R the radius of the sphere of the vesicle's area. A number from 0 to 1e+30;
+   * 1/time. Default 0. */
   void SetVolumeRate(double value);
   double GetVolumeRate();
   ///@}
 
   ///@{
-  /** [volume] pressure: free: pressure inside less that outside. A number from -1e+06 to 1e+06;
+  /** [volume] pressure: free: pressure inside less that outside. A number from -1e+30 to 1e+30;
    * energy/length^3. Default 0. */
   void SetVolumePressure(double value);
   double GetVolumePressure();
@@ -227,15 +236,16 @@ public:
   ///@}
 
   ///@{
-  /** [area_difference] rate: ramped: change of the reduced area difference per unit of time. A
-   * number above 0 and up to 1e+06; 1/time. Default 5. */
+  /** [area_difference] rate: ramped: change of the reduced area difference per unit of time; 0
+   * stands for 0.4 kappa / R^4, R the radius of the sphere of the vesicle's area. A number from 0 to
+   * 1e+30; 1/time. Default 0. */
   void SetAreaDifferenceRate(double value);
   double GetAreaDifferenceRate();
   ///@}
 
   ///@{
   /** [area_difference] multiplier: free: coefficient of the Gaussian curvature in the outward
-   * normal velocity. A number from -1e+06 to 1e+06; energy/length. Default 0. */
+   * normal velocity. A number from -1e+30 to 1e+30; energy/length. Default 0. */
   void SetAreaDifferenceMultiplier(double value);
   double GetAreaDifferenceMultiplier();
   ///@}
@@ -250,28 +260,29 @@ public:
 
   ///@{
   /** [contact] disjoining_pressure: pressure that holds films of inner fluid open, at zero
-   * thickness; 0: none. A number from 0 to 1e+06; energy/length^3. Default 0. */
+   * thickness; 0: none. A number from 0 to 1e+30; energy/length^3. Default 0. */
   void SetContactDisjoiningPressure(double value);
   double GetContactDisjoiningPressure();
   ///@}
 
   ///@{
-  /** [contact] disjoining_range: thickness over which it falls by a factor e. A number above 0 and
-   * up to 1e+06; length. Default 0.02. */
+  /** [contact] disjoining_range: thickness over which it falls by a factor e; 0 stands for a 25th
+   * of the radius of the sphere of the vesicle's area. A number from 0 to 1e+30; length. Default
+   * 0. */
   void SetContactDisjoiningRange(double value);
   double GetContactDisjoiningRange();
   ///@}
 
   ///@{
   /** [contact] rupture_thickness: films as thin as this rupture; 0: as thin as the grid can
-   * resolve. A number from 0 to 1e+06; length. Default 0. */
+   * resolve. A number from 0 to 1e+30; length. Default 0. */
   void SetContactRuptureThickness(double value);
   double GetContactRuptureThickness();
   ///@}
 
   ///@{
-  /** [run] end_time: when the run ends; it starts at 0. A number above 0 and up to 1e+30; time.
-   * Default 0.0016. */
+  /** [run] end_time: when the run ends; it starts at 0; 0 stands for 1.6e-3 half_width^4 / kappa. A
+   * number from 0 to 1e+30; time. Default 0. */
   void SetEndTime(double value);
   double GetEndTime();
   ///@}

@@ -124,7 +124,7 @@ int vtkVesicleSceneReader::RequestData(
         this->Current = std::make_unique<Run>(scene);
       }
       lamella::Trajectory* trajectory = this->Current->Scene.begin(
-        wanted.begins ? lamella::until_aborted(this, scene.end_time) : wanted.go_on);
+        wanted.begins ? lamella::until_aborted(this, scene.end()) : wanted.go_on);
       if (trajectory)
       {
         lamella::serve(this, *trajectory, {}, wanted, *output);

@@ -45,7 +45,7 @@ public:
 
   ///@{
   /** [grid] half_width: half the width, along its shortest axis, of the periodic box around the
-   * origin. A number from 1e-06 to 1e+06; length. Default 1. */
+   * origin. A number from 1e-12 to 1e+12; length. Default 1. */
   void SetHalfWidth(double value);
   double GetHalfWidth();
   ///@}
@@ -58,13 +58,13 @@ public:
   ///@}
 
   ///@{
-  /** [shape] radius: sphere: radius. A number above 0 and up to 1e+06; length. Default 0.5. */
+  /** [shape] radius: sphere: radius. A number above 0 and up to 1e+30; length. Default 0.5. */
   void SetShapeRadius(double value);
   double GetShapeRadius();
   ///@}
 
   ///@{
-  /** [shape] semi_axis: oblate, prolate: largest semi-axis. A number above 0 and up to 1e+06;
+  /** [shape] semi_axis: oblate, prolate: largest semi-axis. A number above 0 and up to 1e+30;
    * length. Default 0.7. */
   void SetShapeSemiAxis(double value);
   double GetShapeSemiAxis();
@@ -79,20 +79,20 @@ public:
 
   ///@{
   /** [shape] semi_axes: ellipsoid: semi-axes along x, y, z. Three numbers [x, y, z] above 0 and up
-   * to 1e+06; length. Default [0.7, 0.6, 0.5]. */
+   * to 1e+30; length. Default [0.7, 0.6, 0.5]. */
   void SetShapeSemiAxes(double x, double y, double z);
   double* GetShapeSemiAxes() VTK_SIZEHINT(3);
   ///@}
 
   ///@{
   /** [shape] ring_radius: torus: from the centre of the torus to the centre of its tube. A number
-   * above 0 and up to 1e+06; length. Default 0.5. */
+   * above 0 and up to 1e+30; length. Default 0.5. */
   void SetShapeRingRadius(double value);
   double GetShapeRingRadius();
   ///@}
 
   ///@{
-  /** [shape] tube_radius: torus: radius of the tube. A number above 0 and up to 1e+06; length.
+  /** [shape] tube_radius: torus: radius of the tube. A number above 0 and up to 1e+30; length.
    * Default 0.2. */
   void SetShapeTubeRadius(double value);
   double GetShapeTubeRadius();
@@ -100,15 +100,15 @@ public:
 
   ///@{
   /** [shape] center: sphere, oblate, prolate, ellipsoid, torus: centre of the shape. Three numbers
-   * [x, y, z] from -1e+06 to 1e+06; length. Default [0, 0, 0]. */
+   * [x, y, z] from -1e+30 to 1e+30; length. Default [0, 0, 0]. */
   void SetShapeCenter(double x, double y, double z);
   double* GetShapeCenter() VTK_SIZEHINT(3);
   ///@}
 
   ///@{
   /** [shape] rotation_axis: sphere, oblate, prolate, ellipsoid, torus: axis through the centre
-   * about which the shape is turned; any length but zero. Three numbers [x, y, z] from -1e+06 to
-   * 1e+06. Default [0, 0, 1]. */
+   * about which the shape is turned; any length but zero. Three numbers [x, y, z] from -1e+30 to
+   * 1e+30. Default [0, 0, 1]. */
   void SetShapeRotationAxis(double x, double y, double z);
   double* GetShapeRotationAxis() VTK_SIZEHINT(3);
   ///@}
@@ -122,14 +122,14 @@ public:
 
   ///@{
   /** [perturbation] amplitude: bound of a smooth displacement of the start shape; 0: none. A number
-   * from 0 to 1e+06; length. Default 0. */
+   * from 0 to 1e+30; length. Default 0. */
   void SetPerturbationAmplitude(double value);
   double GetPerturbationAmplitude();
   ///@}
 
   ///@{
   /** [perturbation] wavelength: shortest of its waves, the longest is three times it; 0 stands for
-   * a third of the shape's largest extent. A number from 0 to 1e+06; length. Default 0. */
+   * a third of the shape's largest extent. A number from 0 to 1e+30; length. Default 0. */
   void SetPerturbationWavelength(double value);
   double GetPerturbationWavelength();
   ///@}
@@ -164,14 +164,14 @@ public:
 
   ///@{
   /** [domains] direction: cap: from the shape's centre to the middle of the cap; any length but
-   * zero. Three numbers [x, y, z] from -1e+06 to 1e+06. Default [0, 0, 1]. */
+   * zero. Three numbers [x, y, z] from -1e+30 to 1e+30. Default [0, 0, 1]. */
   void SetDomainsDirection(double x, double y, double z);
   double* GetDomainsDirection() VTK_SIZEHINT(3);
   ///@}
 
   ///@{
   /** [domains] directions: caps: from the shape's centre to the middle of each cap. Three numbers
-   * each, from -1e+06 to 1e+06. Default none. */
+   * each, from -1e+30 to 1e+30. Default none. */
   void AddDomain(double x, double y, double z);
   void RemoveAllDomains();
   int GetNumberOfDomains();

@@ -35,7 +35,7 @@ struct CaseResult {
   Measures end;
   long steps = 0;
   double seconds = 0;
-  double energy_rise = 0; ///< relative, largest in a step without ramp and topology change
+  double energy_rise = 0; ///< largest Measures::energy_rise
   double drift = 0;       ///< of area and volume, relative
   bool finite = true;     ///< all that was measured
   std::vector<Event> events;

@@ -53,7 +53,7 @@ double builtin_exact(const StoredStates& run, const Study& study, const std::str
   const auto at = [&](double time) {
     return notation_of(column).value(reference->at(time).value(column), run.units());
   };
-  if (!study.window) return at(scene.end_time);
+  if (!study.window) return at(scene.end());
   std::vector<double> times(201);
   for (std::size_t n = 0; n < times.size(); ++n)
     times[n] = std::lerp((*study.window)[0], (*study.window)[1], double(n) / 200);

@@ -151,8 +151,8 @@ std::optional<Reference> builtin_reference(const Scene& scene) {
     if (known.scene != scene.name) continue;
     const Scene builtin = builtin_scene(known.scene);
     const Reference reference(known.table, std::string(known.file));
-    const bool rests = !reference.at_rest() || scene.end_time >= builtin.end_time;
-    if (same_physics(scene, builtin) && rests && reference.covers(scene.end_time)) return reference;
+    const bool rests = !reference.at_rest() || scene.end() >= builtin.end();
+    if (same_physics(scene, builtin) && rests && reference.covers(scene.end())) return reference;
   }
   return {};
 }

@@ -92,8 +92,8 @@ std::string tradeoff_markdown(const Scene& scene, const Reference& reference,
       "picture, where no run is both faster and more accurate (the Pareto front).\n\n"
       "| grid | tolerance | preset | steps | time | E(t) | E | P | sigma | largest |\n"
       "|---|---|---|---|---|---|---|---|---|---|\n",
-      scene.name, scene.end_time, reference.source(), thread_count(),
-      thread_count() == 1 ? "" : "s", kernels().name,
+      scene.name, scene.end(), reference.source(), thread_count(), thread_count() == 1 ? "" : "s",
+      kernels().name,
       repeats == 1 ? "of single runs" : fmt::format("the least of {} runs", repeats));
   for (const Trial& trial : trials) page += markdown_row(trial);
   return page;

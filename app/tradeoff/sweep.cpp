@@ -47,13 +47,13 @@ void advance(Trial& trial, const std::function<bool(double time)>& watch) {
   Stopping stopping(trial.scene.stop);
   const auto goes_on = [&] {
     const auto changes = std::ranges::count_if(sim.events(), &Event::changes_topology);
-    return sim.time() < trial.scene.end_time &&
+    return sim.time() < trial.scene.end() &&
            !stopping.reason(sim.measures(), int(changes), sim.ramping(), seconds_since(begin)) &&
            watch(sim.time());
   };
   trial.history.push_back(sim.measures());
   while (goes_on()) {
-    sim.step(trial.scene.end_time);
+    sim.step(trial.scene.end());
     trial.history.push_back(sim.measures());
   }
 }

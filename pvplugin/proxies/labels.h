@@ -64,6 +64,7 @@ inline const std::vector<Group>& panel_groups() {
            {"line.geodesic_modulus", "Line Geodesic Modulus (ε)", advanced},
            {"line.torsion_modulus", "Line Torsion Modulus (ε)", advanced},
            {"line.normal_modulus", "Line Normal Modulus (ε)", advanced},
+           {"line.drag", "Line Drag (ℓ)", advanced},
        }},
       {"Constraints",
        {

@@ -15,6 +15,7 @@ using std::numbers::pi;
 
 constexpr double rounding = 1e-12;         // of times, relative
 constexpr double change_per_step = 2.5e-3; // of a reduced value that is led somewhere
+constexpr double calm = 0.4;               // rate of a ramp, in kappa / R^4
 const Eigen::Vector4d to_quantity{1, -1, -2, -1};
 
 double approach(double from, double to, double longest) {
@@ -31,7 +32,8 @@ Constraints::Constraints(const Scene& scene)
                 {Constraint::fixed, {}},
                 {scene.area_difference.constraint, scene.area_difference.ramp},
                 {scene.has_phases() ? Constraint::fixed : Constraint::free, {}}}},
-      given_{scene.volume.pressure, 0, scene.area_difference.multiplier, 0} {
+      given_{scene.volume.pressure, 0, scene.area_difference.multiplier, 0},
+      stiffness_(scene.stiffest()) {
   const Course& last = courses_[2];
   held_ = {courses_[0].constraint != Constraint::free, true,
            last.constraint == Constraint::fixed ||
@@ -63,6 +65,7 @@ void Constraints::restore(const State& s) {
     courses_[i].start = s.start[i];
   }
   list_held();
+  set_rates();
 }
 
 bool Constraints::set_out(double time, const Quantities& now) {
@@ -81,6 +84,15 @@ void Constraints::begin(const Quantities& start) {
   courses_[0].factor = 4. / 3 * pi * radius * radius * radius;
   courses_[2].factor = -8 * pi * radius;
   for (int i = 0; i < 4; i++) courses_[i].start = start[i] / courses_[i].factor;
+  set_rates();
+}
+
+double Constraints::radius() const { return courses_[2].factor / (-8 * pi); }
+
+/// Of ramps that the scene gives none.
+void Constraints::set_rates() {
+  for (Course& course : courses_)
+    if (course.ramp.rate == 0) course.ramp.rate = calm * stiffness_ / std::pow(radius(), 4);
 }
 
 double Constraints::Course::at(double time) const {
@@ -118,6 +130,11 @@ Quantities Constraints::rate(double time) const {
   return q;
 }
 
+bool Constraints::is_led(double from, double to) const {
+  return std::ranges::any_of(indices_,
+                             [&](int i) { return courses_[i].at(from) != courses_[i].at(to); });
+}
+
 bool Constraints::ramping(double time) const {
   return std::ranges::any_of(courses_, [&](const Course& c) { return time < c.end_time(); });
 }
@@ -151,9 +168,10 @@ double Constraints::longest_step(double time) const {
   return longest;
 }
 
-Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b) {
+Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b,
+                             const Eigen::VectorXd& unit) {
   constexpr double damping = 1e-4;
-  const Eigen::VectorXd row_scale = m.rowwise().norm().cwiseInverse();
+  const Eigen::VectorXd row_scale = unit.cwiseInverse();
   Eigen::MatrixXd scaled = row_scale.asDiagonal() * m;
   const Eigen::VectorXd column_scale = scaled.colwise().norm().transpose().cwiseInverse();
   scaled = scaled * column_scale.asDiagonal();
@@ -163,9 +181,11 @@ Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b)
                                    (scaled.transpose() * row_scale.cwiseProduct(b)));
 }
 
-Eigen::Vector4d Constraints::combination(const Eigen::Matrix4d& effect,
-                                         const Quantities& change) const {
-  const Eigen::VectorXd x = solve_scaled(effect(indices_, indices_), change(indices_));
+Eigen::Vector4d Constraints::combination(const Eigen::Matrix4d& effect, const Quantities& change,
+                                         const SurfaceIntegrals& integrals) const {
+  const Eigen::Vector4d unit = integrals.gram.diagonal().cwiseSqrt();
+  const Eigen::VectorXd x =
+      solve_scaled(effect(indices_, indices_), change(indices_), unit(indices_));
   Eigen::Vector4d all = Eigen::Vector4d::Zero();
   all(indices_) = x;
   return all;
@@ -186,7 +206,7 @@ Eigen::VectorXd Constraints::multipliers(const Eigen::MatrixXd& gram,
   }
   held.conservativeResize(count);
   const Eigen::VectorXd left = b - gram * m;
-  m(held) = solve_scaled(gram(held, held), left(held));
+  m(held) = solve_scaled(gram(held, held), left(held), gram.diagonal()(held).cwiseSqrt());
   return m;
 }
 

@@ -42,6 +42,8 @@ public:
 
   /// What the start has; targets set out from there.
   void begin(const Quantities& start);
+  /// Of the sphere of the area that the start has: the length by which defaults scale.
+  double radius() const;
 
   /// A ramped area difference is free until it sets out. True when it does so now, from what it has
   /// become.
@@ -53,6 +55,8 @@ public:
   Quantities target(double time) const;
   /// d target / dt.
   Quantities rate(double time) const;
+  /// A held quantity is led on between two times.
+  bool is_led(double from, double to) const;
   /// Some target still moves or has yet to set out.
   bool ramping(double time) const;
   /// A ramp begins or ends at this time.
@@ -67,8 +71,9 @@ public:
                               const Quantities& rate) const;
 
   /// Factors of the held quantities' directions that bring about a change; `effect` has a column of
-  /// changes for each direction.
-  Eigen::Vector4d combination(const Eigen::Matrix4d& effect, const Quantities& change) const;
+  /// changes for each direction. `integrals` tell what is much of a change.
+  Eigen::Vector4d combination(const Eigen::Matrix4d& effect, const Quantities& change,
+                              const SurfaceIntegrals& integrals) const;
 
   /// Corrections must be made with care: the area difference is held, or 1 and K_M are almost
   /// dependent on this membrane, a long tube, so that a small correction takes a long way.
@@ -92,16 +97,19 @@ private:
   };
   std::vector<double> turning_points() const;
   void list_held();
+  void set_rates();
 
   std::array<Course, 4> courses_;
   std::array<bool, 4> held_{};
   std::vector<int> indices_;
   Multipliers given_ = Multipliers::Zero();
+  double stiffness_; // the largest bending modulus
 };
 
-/// Solves m x = b (size 1 to 4) with rows and columns scaled to unit norm and directions of
+/// Solves m x = b with rows measured in a unit each, columns scaled to unit norm, and directions of
 /// singular value below 1e-4 damped out: on a sphere volume and area say the same, and what they
 /// differ by is noise. (1e-4 is about the relative variance of K_M at a reduced volume of 0.9999.)
-Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b);
+Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& m, const Eigen::VectorXd& b,
+                             const Eigen::VectorXd& unit);
 
 } // namespace lamella

@@ -20,7 +20,8 @@ std::string length_text(double length, double spacing) {
 }
 
 std::string what_happened(const Event& event, double spacing) {
-  const std::string place = place_text(event.place), radius = length_text(event.size, spacing),
+  const std::string place = place_text(event.place, spacing),
+                    radius = length_text(event.size, spacing),
                     thickness = length_text(2 * event.size, spacing);
   switch (event.kind) {
   case Event::Kind::fission:
@@ -69,9 +70,16 @@ std::string change_text(const Event& event) {
 
 } // namespace
 
-std::string place_text(const Vec3& place) {
-  const auto rounded = [](double x) { return std::round(1000 * x) / 1000 + 0.0; };
+std::string place_text(const Vec3& place, double spacing) {
+  const double digits = std::pow(10., -std::floor(std::log10(spacing / 10)));
+  const auto rounded = [=](double x) { return std::round(digits * x) / digits + 0.0; };
   return fmt::format("({:g}, {:g}, {:g})", rounded(place[0]), rounded(place[1]), rounded(place[2]));
+}
+
+std::string place_text(const Vec3& place) {
+  const auto [x, y, z] = place;
+  return place_text(place,
+                    std::max({0.05 * std::abs(x), 0.05 * std::abs(y), 0.05 * std::abs(z), 1e-30}));
 }
 
 std::string_view to_string(Event::Kind kind) { return names[std::size_t(kind)]; }

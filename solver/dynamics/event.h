@@ -45,7 +45,10 @@ std::string_view to_string(Event::Kind kind);
 /// The other way round; nothing for another word.
 std::optional<Event::Kind> event_kind(std::string_view word);
 
-/// "(0.1, 0.2, 0)": coordinates to a thousandth, without a minus before zero.
+/// "(0.1, 0.2, 0)": coordinates to the decimal that is a tenth of a grid spacing or less, without a
+/// minus before zero.
+std::string place_text(const Vec3& place, double spacing);
+/// Where there is no grid: to a few digits of the largest coordinate.
 std::string place_text(const Vec3& place);
 
 /// One line for a person, on a grid of the given spacing: "t = 0.000251: a neck was cut at (0.1,

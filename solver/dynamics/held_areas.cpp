@@ -111,7 +111,7 @@ HeldAreas::Integrals HeldAreas::integrate(const SurfaceGeometry& surface,
                                           std::span<const double> share,
                                           std::span<const double> variation,
                                           const PhaseBoundary& boundary,
-                                          std::span<const double> force) const {
+                                          std::span<const double> speed, double drag) const {
   const Eigen::Index n = Eigen::Index(size());
   auto none = [n] {
     return Integrals{MatrixXd::Zero(n, 3), MatrixXd::Zero(n, n), MatrixXd::Zero(n, n),
@@ -146,12 +146,12 @@ HeldAreas::Integrals HeldAreas::integrate(const SurfaceGeometry& surface,
     const double w = boundary.points()[j].weight;
     for (const auto& [part, outwards] : {std::pair{ld, 1}, {lo, -1}})
       if (part >= 0) {
-        sum.variation[part] += outwards * w * force[j];
+        sum.variation[part] += outwards * w * speed[j];
         sum.line_gram(part, part) += w;
       }
     if (ld >= 0 && lo >= 0) sum.line_gram(ld, lo) = sum.line_gram(lo, ld) -= w;
   }
-  sum.gram += sum.line_gram;
+  sum.gram += sum.line_gram / drag;
   return sum;
 }
 

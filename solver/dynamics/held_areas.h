@@ -17,13 +17,13 @@ namespace lamella {
 class HeldAreas {
 public:
   /// What a tension in each part alone does: it gives the membrane the normal velocity q K_M, q the
-  /// share of the part, and moves its boundary inwards by 1.
+  /// share of the part, and its boundary one of 1 / drag inwards.
   struct Integrals {
     Eigen::MatrixXd with_surface; ///< rows: int q K_M (1, K_M, K) dA
     Eigen::MatrixXd gram;         ///< of the parts among themselves, the boundary included
-    Eigen::VectorXd variation;    ///< int q K_M F dA, and oint g.n dl outwards
+    Eigen::VectorXd variation;    ///< int q K_M F dA, and oint of the boundary's speed outwards
     Eigen::VectorXd area;
-    Eigen::MatrixXd line_gram; ///< the boundary's share of the gram matrix
+    Eigen::MatrixXd line_gram; ///< the boundary's share of the gram matrix, times the drag
 
     Integrals& operator+=(const Integrals& other);
   };
@@ -37,11 +37,11 @@ public:
   /// Finds the parts of samples; `point`: of the boundary, next to each sample, -1 where there is
   /// none near.
   void sample(const Grid& grid, const SurfaceGeometry& surface, std::span<const int> point);
-  /// `share` of Ld and variation F at the samples (F empty: 0), `force` along n at the boundary's
-  /// points.
+  /// `share` of Ld and variation F at the samples (F empty: 0), `speed` along n at the boundary's
+  /// points without tensions, `drag` of the boundary.
   Integrals integrate(const SurfaceGeometry& surface, std::span<const double> share,
                       std::span<const double> variation, const PhaseBoundary& boundary,
-                      std::span<const double> force) const;
+                      std::span<const double> speed, double drag) const;
 
   /// Tensions of the parts, above that of the rest; `area` of the membrane.
   void set_tensions(const Eigen::VectorXd& tensions, const Integrals& integrals,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
+#include <vector>
 
 namespace lamella {
 
@@ -63,6 +65,19 @@ struct Measures {
   std::optional<double> pressure_energy{};        ///< -P V, under a pressure
   std::optional<double> area_difference_energy{}; ///< 1/2 K_multiplier int K_M dA, of a given one
   std::optional<double> film_energy{};            ///< of the disjoining pressure of films
+
+  /// Of the step that led here, over Vesicle::energy_scale() before it; 0 where the energy fell or
+  /// the step was driven. Nothing in what earlier versions stored.
+  std::optional<double> energy_rise{};
 };
+
+/// One term of an energy, named so as to complete "most of it is ...".
+struct EnergyTerm {
+  std::string_view name;
+  double value;
+};
+
+/// All terms that a scene's energy has: Measures::energy is their sum.
+std::vector<EnergyTerm> energy_terms(const Measures& measures);
 
 } // namespace lamella

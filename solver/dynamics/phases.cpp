@@ -261,8 +261,14 @@ void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli)
   const std::span<const BoundaryPoint> curve = boundary_.points();
   const std::vector<Vector3d> sharp = sharp_line_.forces(boundary_);
   force_.resize(curve.size());
-  for (std::size_t j = 0; j < curve.size(); j++)
+  flow_.assign(curve.size(), 0);
+  stiffness_ = 0;
+  for (std::size_t j = 0; j < curve.size(); j++) {
     force_[j] = line_.tension * curve[j].kg + sharp[j].dot(curve[j].n);
+    const double tension = line_.tension + std::abs(sharp_line_.torsion * curve[j].tau_g) +
+                           std::abs(sharp_line_.normal * curve[j].B_perp);
+    stiffness_ = std::max(stiffness_, tension / (h_ * h_));
+  }
   if (!moduli.differ()) return;
   constexpr int rule = 16;
   constexpr double half_node[rule / 2] = {.0950125098376374, .2816035507792589, .4580167776572274,
@@ -290,7 +296,8 @@ void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli)
   for (std::size_t i = 0; i < points.size(); i++)
     points[i] -= near[i].value / near[i].gradient.squaredNorm() * near[i].gradient;
   const std::vector<Taylor> f = taylor(phi, points), psi = taylor(psi_, points);
-  for (std::size_t j = 0; j < curve.size(); j++)
+  for (std::size_t j = 0; j < curve.size(); j++) {
+    double slope = 0; // of the force as the boundary moves
     for (int q = 0; q < rule; q++) {
       const std::size_t i = rule * j + q;
       const CurveGeometry c = curve_geometry(f[i], psi[i]);
@@ -298,8 +305,14 @@ void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli)
       const double s = node[q] * reach, off = c.KM() - v.C.f;
       const double density =
           0.5 * v.kappa.d1 * off * off - v.kappa.f * v.C.d1 * off + v.kappa_G.d1 * c.K();
-      if (std::isfinite(density)) force_[j] += weight[q] * reach * density * (1 - curve[j].kg * s);
+      if (!std::isfinite(density)) continue;
+      const double width = weight[q] * reach * (1 - curve[j].kg * s);
+      force_[j] += width * density;
+      slope += width * (0.5 * v.kappa.d2 * off * off - 2 * v.kappa.d1 * v.C.d1 * off +
+                        v.kappa.f * (v.C.d1 * v.C.d1 - v.C.d2 * off) + v.kappa_G.d2 * c.K());
     }
+    stiffness_ = std::max(stiffness_, std::abs(slope));
+  }
 }
 
 void Phases::add_flow(const StretchField& stretch) {
@@ -308,8 +321,14 @@ void Phases::add_flow(const StretchField& stretch) {
     x.push_back(p.x);
     n.push_back(p.n);
   }
-  const std::vector<double> flow = stretch.flow_across(x, n);
-  for (std::size_t j = 0; j < flow.size(); j++) force_[j] += flow[j];
+  flow_ = stretch.flow_across(x, n);
+}
+
+HeldAreas::Integrals Phases::integrate_held(const SurfaceGeometry& surface,
+                                            std::span<const double> variation) const {
+  std::vector<double> free(force_.size());
+  for (std::size_t j = 0; j < free.size(); j++) free[j] = force_[j] / drag_ + flow_[j];
+  return held_.integrate(surface, share_, variation, boundary_, free, drag_);
 }
 
 PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface,
@@ -388,22 +407,20 @@ double Phases::near_boundary(int node) const {
 
 double Phases::max_line_speed() const {
   double most = 0;
-  for (std::size_t j = 0; j < force_.size(); j++)
-    most = std::max(most, std::abs(force_[j] - held_.jump()[j]));
+  for (std::size_t j = 0; j < force_.size(); j++) most = std::max(most, std::abs(speed(j)));
   return most;
 }
 
 void Phases::extend_rates(const NarrowBand& band, double dt, Extension& extension) {
-  std::vector<double> speed(force_.size());
-  for (std::size_t j = 0; j < speed.size(); j++)
-    speed[j] = force_[j] - held_.jump()[j] + held_.shift()[j] / dt;
+  std::vector<double> speeds(force_.size());
+  for (std::size_t j = 0; j < speeds.size(); j++) speeds[j] = speed(j) + held_.shift()[j] / dt;
   rates_.assign(band.size(), 0);
   weights_.assign(band.size(), 0);
   parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
       const BoundaryFeet::Foot& foot = feet_[i];
       if (!foot.exists()) continue;
-      rates_[i] = -foot.value(speed); // |grad_s psi| = 1
+      rates_[i] = -foot.value(speeds); // |grad_s psi| = 1
       weights_[i] = band.taper()[i] * boundary_taper(foot.distance);
     }
   });

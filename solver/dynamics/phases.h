@@ -66,9 +66,7 @@ public:
   HeldAreas& held() { return held_; }
   const HeldAreas& held() const { return held_; }
   HeldAreas::Integrals integrate_held(const SurfaceGeometry& surface,
-                                      std::span<const double> variation) const {
-    return held_.integrate(surface, share_, variation, boundary_, force_);
-  }
+                                      std::span<const double> variation) const;
 
   /// First-order change of the area of Ld where psi changes by so much at the samples.
   double change_of_area(std::span<const double> psi, const SurfaceGeometry& surface) const;
@@ -80,8 +78,7 @@ public:
   /// delta(psi) |grad_s psi| at the samples: int f delta dA = oint f dl.
   std::span<const double> delta() const { return delta_; }
 
-  /// Rates of psi at which the boundary moves in a step, with its force less the jump of tension,
-  /// carried into the box.
+  /// Rates of psi at which the boundary moves in a step, carried into the box.
   void extend_rates(const NarrowBand& band, double dt, Extension& extension);
 
   /// As of the last locate().
@@ -95,8 +92,18 @@ public:
   const LevelSet& psi() const { return psi_; }
   const PhaseBoundary& boundary() const { return boundary_; }
   const BoundaryFeet& feet() const { return feet_; }
+  /// On the boundary along n, per length, without the jump of tension.
   std::span<const double> force() const { return force_; }
+  /// Of the boundary along n: with its force less the jump of tension, and with the flow of lipid.
+  double speed(std::size_t point) const {
+    return (force_[point] - held_.jump()[point]) / drag_ + flow_[point];
+  }
   double max_line_speed() const;
+  /// In which a bump of the boundary of the size of the grid relaxes.
+  double relaxation_time() const { return drag_ / stiffness_; }
+  /// Of the boundary along the membrane, per length.
+  double drag() const { return drag_; }
+  void set_drag(double drag) { drag_ = drag; }
   const Line& line() const { return line_; }
   /// Spontaneous curvatures are 0 before.
   double curvature_start_time() const { return curvature_start_time_; }
@@ -125,6 +132,8 @@ private:
   double boundary_taper(double s) const;
 
   double h_;
+  double drag_ = 1;
+  double stiffness_ = 0; // of the boundary on a membrane at rest: force per length and displacement
   Phase ld_, lo_;
   double curvature_start_time_;
   Line line_;
@@ -138,7 +147,7 @@ private:
   std::vector<Domain> domains_;
   std::vector<StripPoint> strip_;
   std::vector<double> share_, delta_, moment_share_, kappa_, C_;
-  std::vector<double> force_; // along n, at the boundary's points
+  std::vector<double> force_, flow_; // along n, at the boundary's points
   std::vector<double> rates_, weights_;
   PhaseModuli current_;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace lamella {
 
@@ -13,10 +14,10 @@ namespace {
 // Spacings, kept free at the sides of the box: the reach of the quadrature kernel.
 constexpr double margin = 2.75;
 
-// A step fails that ends further off the constraints, or raises the energy by so much of the
-// bending energy.
-constexpr double hopeless_drift = 1e-4, energy_jump = 0.01;
-constexpr int most_failures = 8; // in a row, each time ten times shorter
+constexpr double hopeless_drift = 1e-4; // off the constraints, of a step that fails
+// Of steps to before one point in time, each ten times shorter than the one before. (Not in a row:
+// at a jump of the energy shorter ones go well, and every time end nearer to it.)
+constexpr int most_failures = 8;
 // Of what steps add to the constraints beyond first order; on a sphere it cannot be made up for.
 constexpr double memory = 0.9;
 
@@ -45,12 +46,8 @@ const Start& checked(const Start& start, const Scene& scene) {
 Simulation::Simulation(const Scene& scene) : Simulation(scene, start_of(scene)) {}
 
 StepControl Simulation::control_of(const Scene& scene) {
-  const double stiffness = scene.has_phases()
-                               ? std::max(scene.ld.bending_modulus, scene.lo.bending_modulus)
-                               : scene.membrane.bending_modulus;
-  const double longest =
-      scene.numerics.max_time_step > 0 ? scene.numerics.max_time_step : scene.end_time / 16;
-  return StepControl({scene.numerics.tolerance, scene.grid().spacing, stiffness, longest});
+  return StepControl(
+      {scene.numerics.tolerance, scene.grid().spacing, scene.stiffest(), scene.longest_step()});
 }
 
 int Simulation::responses_of(const Scene& scene) {
@@ -87,11 +84,14 @@ Frame Simulation::frame() const {
 void Simulation::step(double latest) {
   if (!why_not_on_.empty()) throw RunError(why_not_on_);
   if (vesicle_.set_out(time())) response_dt_ = 0; // there is one more
-  int failures = 0;
-  while (!try_step(choose_dt(latest), latest)) {
-    if (++failures == most_failures) throw RunError(why_not_kept());
-    go_back();
+  for (;;) {
+    double then = time() + choose_dt(latest);
+    if (then > latest * (1 - 1e-12)) then = latest; // rounding
+    const std::string why = try_step(then);
+    if (why.empty()) break;
+    take_back(then, why);
   }
+  if (time() >= failed_before_) failures_ = 0;
   change_topology_if_needed();
   note_domains();
   note_unresolved();
@@ -99,13 +99,10 @@ void Simulation::step(double latest) {
   renormalise_if_needed();
 }
 
-/// False if the step did not end on the constraints.
-bool Simulation::try_step(double dt, double latest) {
+/// Why a step cannot be kept; nothing where it is.
+std::string Simulation::try_step(double then) {
   const SurfaceGeometry& surface = vesicle_.surface();
-  const Constraints& constraints = vesicle_.constraints();
-  const double energy = vesicle_.energy();
-  double then = time() + dt;
-  if (then > latest * (1 - 1e-12)) then = latest; // rounding
+  const double dt = then - time(), scale = vesicle_.energy_scale();
   gauge_.filter(vesicle_.phi(), vesicle_.band());
   extend_rates([&](std::size_t i) { return vesicle_.velocity(i); });
   stepper_.predict(vesicle_.extension(), dt, implicit_symbol());
@@ -125,12 +122,12 @@ bool Simulation::try_step(double dt, double latest) {
   last_dt_ = dt;
   broken_ = true;
   const Quantities excess = vesicle_.measure(then);
-  if (!(vesicle_.drift(then) < hopeless_drift)) return false;
+  if (!(vesicle_.drift(then) < hopeless_drift)) return why_not_kept();
   Measures now = vesicle_.measures(then);
   now.dt = dt;
-  const bool driven = constraints.rate(then) != Quantities::Zero() ||
-                      constraints.rate(time()) != Quantities::Zero() || vesicle_.turns_at(then);
-  if (!driven && now.energy - energy > energy_jump * measures_.bending_energy) return false;
+  if (driven_ == 0 && !vesicle_.is_driven(time(), then))
+    now.energy_rise = std::max(0.0, (now.energy - measures_.energy) / scale);
+  if (*now.energy_rise > largest_rise) return why_not_risen(now);
   if (broke_film(now)) {
     const CriticalPoint* film = narrowest_place().second;
     const std::string message = film_message(film ? film->place : Vec3{});
@@ -142,7 +139,15 @@ bool Simulation::try_step(double dt, double latest) {
   steps_++;
   measures_ = now;
   broken_ = false;
-  return true;
+  driven_ = 0;
+  return {};
+}
+
+/// For a shorter step, or not at all.
+void Simulation::take_back(double then, const std::string& why) {
+  if (failures_ == 0) failed_before_ = then;
+  if (++failures_ >= most_failures) throw RunError(why);
+  go_back();
 }
 
 /// d phi / dt = -v |grad phi| for a velocity v at the samples, carried into the box.
@@ -192,13 +197,14 @@ void Simulation::apply_constrained(double time) {
       change_from(vesicle_.moments([&](std::size_t i) { return -1 / surface.grad()[i]; }));
   effect.col(1) = change_by(on_membrane(stepper_.response(0)));
   if (second) effect.col(second) = change_by(on_membrane(stepper_.response(1)));
-  if (phases) effect(3, 3) -= response_dt_ * phases->length(surface);
+  if (phases) effect(3, 3) -= response_dt_ * phases->length(surface) / phases->drag();
   const Eigen::Vector4d factors = constraints.combination(
-      effect, constraints.target(time) - quantities(vesicle_.integrals()) - excess_ - predicted);
+      effect, constraints.target(time) - quantities(vesicle_.integrals()) - excess_ - predicted,
+      vesicle_.integrals());
   if (!factors.allFinite()) throw RunError("the step is not finite");
   const double along[2] = {factors[1], second ? factors[second] : 0};
   stepper_.apply(vesicle_.phi(), along, factors[0]);
-  if (phases) psi_stepper_->apply(phases->psi(), {}, response_dt_ * factors[3]);
+  if (phases) psi_stepper_->apply(phases->psi(), {}, response_dt_ * factors[3] / phases->drag());
 }
 
 /// A field of coefficients at the samples.
@@ -223,13 +229,13 @@ int Simulation::second_response() const {
 ImplicitSymbol Simulation::implicit_symbol() const {
   const double tension = vesicle_.greatest_tension() + vesicle_.curvature_tension();
   const double line = vesicle_.phases() ? vesicle_.phases()->line().tension : 0;
-  return {vesicle_.stiffness(), std::max(0.0, tension) + line};
+  return {vesicle_.stiffness(), std::max(0.0, tension) + line / vesicle_.constraints().radius()};
 }
 
 void Simulation::predict_boundary(double dt) {
   Phases& phases = *vesicle_.phases();
   phases.extend_rates(vesicle_.band(), dt, vesicle_.extension());
-  psi_stepper_->predict(vesicle_.extension(), dt, {0, phases.line().tension});
+  psi_stepper_->predict(vesicle_.extension(), dt, {0, phases.line().tension / phases.drag()});
 }
 
 /// After phi was changed by other means than a step. Returns the area before it was put back.
@@ -258,7 +264,8 @@ double Simulation::choose_dt(double latest) const {
   double dt = last_dt_ == 0
                   ? control_.first(vesicle_.max_force())
                   : control_.next(last_dt_, error_,
-                                  std::max(vesicle_.max_speed(), vesicle_.max_line_speed()));
+                                  std::max(vesicle_.max_speed(), vesicle_.max_line_speed()),
+                                  vesicle_.line_time());
   dt = std::min(dt, vesicle_.longest_step(time()));
   if (vesicle_.turns_at(time())) dt = std::min(dt, control_.first(vesicle_.max_speed()));
   const double left = latest - time();
@@ -323,6 +330,18 @@ std::string Simulation::why_not_kept() const {
   return steps_ == 0 ? "the start shape is thinner than the grid can resolve; try more grid.nodes"
                      : "volume and area can no longer be kept: somewhere the membrane is thinner "
                        "than the grid can resolve; try more grid.nodes";
+}
+
+std::string Simulation::why_not_risen(const Measures& risen) const {
+  std::pair<std::string_view, double> most{};
+  const std::vector<EnergyTerm> before = energy_terms(measures_), after = energy_terms(risen);
+  for (std::size_t i = 0; i < after.size(); i++)
+    if (const double rise = after[i].value - before[i].value; rise > most.second)
+      most = {after[i].name, rise};
+  return fmt::format("the energy would rise from {:.6g} to {:.6g} in a step, however short, though "
+                     "nothing drives the vesicle; most of it is {}. The grid does not resolve what "
+                     "happens there; try more grid.nodes",
+                     measures_.energy, risen.energy, most.first);
 }
 
 void Simulation::check(const Measures& m) const {

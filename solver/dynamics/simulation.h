@@ -22,7 +22,9 @@ struct SimulationState {
   std::optional<SemiImplicit::Memory> psi_stepper, c_stepper;
   Quantities excess = Quantities::Zero();
   double error = 0, last_dt = 0, response_dt = 0;
-  long steps = 0, renormalised = 0, next_parting = 0, next_search = 0;
+  long steps = 0, renormalised = 0, next_parting = 0, next_search = 0, failures = 0;
+  double failed_before = 0;
+  long driven = 0; ///< 1: the energy may rise in the next step, as the scene is another one now
   std::array<int, 3> cells{};
   Topology topology;
   std::vector<Domain> domains;
@@ -47,6 +49,10 @@ public:
   /// After at least one step (at its start a simulation is its scene), the last of them successful.
   SimulationState state() const;
 
+  /// The most that the energy may rise in an undriven step, over Vesicle::energy_scale(). (Cuts are
+  /// no steps; what they do to the energy is in their events.)
+  static constexpr double largest_rise = 2e-3;
+
   /// One time step, not beyond `latest` (> time()). Throws RunError when the run cannot go on;
   /// frame() and measures() then still give the state before the step.
   void step(double latest);
@@ -68,7 +74,8 @@ private:
   static int responses_of(const Scene& scene);
 
   // steps: simulation.cpp
-  bool try_step(double dt, double latest);
+  std::string try_step(double then);
+  void take_back(double then, const std::string& why);
   void predict_boundary(double dt);
   void step_stretch(double dt);
   void apply_constrained(double time);
@@ -85,6 +92,7 @@ private:
   void renormalise_if_needed();
   void check(const Measures& m) const;
   std::string why_not_kept() const;
+  std::string why_not_risen(const Measures& risen) const;
 
   // events: simulation_events.cpp
   void find_narrow_places();
@@ -122,6 +130,9 @@ private:
   double last_dt_ = 0;                     // 0: none yet
   double response_dt_ = 0;                 // the step that the responses were found for
   long steps_ = 0, renormalised_ = 0, next_parting_ = 0, next_search_ = 0;
+  long failures_ = 0; // of steps from before failed_before_, the end of the first of them
+  double failed_before_ = 0;
+  long driven_ = 0;
   std::array<int, 3> cells_{}; // by which the box has moved
   Topology topology_;
   std::vector<Domain> domains_; // of the Ld phase

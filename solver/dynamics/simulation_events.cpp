@@ -152,7 +152,7 @@ void Simulation::change_topology_if_needed() {
     if (!contact_.topology_changes) {
       why_not_on_ = fmt::format("the topology is about to change at {}, which "
                                 "contact.topology_changes forbids",
-                                place_text(in_space(place->at.place)));
+                                place_text(in_space(place->at.place), grid().spacing));
       return;
     }
     const bool parted = part_at(*place);
@@ -207,7 +207,7 @@ void Simulation::note_spontaneous_change() {
 std::string Simulation::film_message(const Vec3& place) const {
   return fmt::format("a film of inner fluid at {} has become thinner than the grid resolves; try "
                      "more grid.nodes, or keep films apart with contact.disjoining_pressure",
-                     place_text(in_space(place)));
+                     place_text(in_space(place), grid().spacing));
 }
 
 /// False, and nothing is changed, where the energy would rise. A neck too thin for the grid parts
@@ -246,6 +246,7 @@ bool Simulation::part_at(const Closing& place) {
   const double h = grid().spacing;
   last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.stiffness());
   parted.dt = measures_.dt;
+  parted.energy_rise = measures_.energy_rise; // of the step that led here
   measures_ = parted;
   event.components_after = measures_.components;
   event.genus_after = measures_.genus;

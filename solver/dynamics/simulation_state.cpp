@@ -79,8 +79,9 @@ Simulation::Simulation(const Scene& scene, const SimulationState& s)
       stepper_(scene.grid(), fourier_, responses_of(scene)), inside_(s.inside), outside_(s.outside),
       why_not_on_(s.why_not_on), excess_(s.excess), error_(s.error), last_dt_(s.last_dt),
       response_dt_(s.response_dt), steps_(s.steps), renormalised_(s.renormalised),
-      next_parting_(s.next_parting), next_search_(s.next_search), cells_(s.cells),
-      topology_(s.topology), domains_(s.domains), measures_(s.measures), events_(s.events) {
+      next_parting_(s.next_parting), next_search_(s.next_search), failures_(s.failures),
+      failed_before_(s.failed_before), driven_(s.driven), cells_(s.cells), topology_(s.topology),
+      domains_(s.domains), measures_(s.measures), events_(s.events) {
   check_fits(s.stepper, stepper_.memory());
   stepper_.remember(s.stepper);
   restore(psi_stepper_, s.psi_stepper, scene.grid(), fourier_);
@@ -102,6 +103,9 @@ SimulationState Simulation::state() const {
                     .renormalised = renormalised_,
                     .next_parting = next_parting_,
                     .next_search = next_search_,
+                    .failures = failures_,
+                    .failed_before = failed_before_,
+                    .driven = driven_,
                     .cells = cells_,
                     .topology = topology_,
                     .domains = domains_,

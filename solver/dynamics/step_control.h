@@ -18,9 +18,10 @@ public:
   double first(double max_force) const;
 
   /// Step after one of length `last` that made the error `error` (spacings), with the membrane
-  /// moving at most at max_speed: grows by at most 1.3, and never below the time that a bump of the
-  /// size of the grid takes to relax, h^4 / (4 kappa), once there; going below resolves noise only.
-  double next(double last, double error, double max_speed) const;
+  /// moving at most at max_speed: grows by at most 1.3, and never below a quarter of the time that
+  /// a bump of the size of the grid takes to relax, once there; going below resolves noise only.
+  /// That time is h^4 / kappa, or `line_time` for one of the phase boundary where that is less.
+  double next(double last, double error, double max_speed, double line_time) const;
 
 private:
   Limits limits_;

@@ -16,7 +16,7 @@ bool Stopping::is_at_rest(const Measures& now) const {
   const auto [energy_rate, residual_force, changes, seconds] = rules_;
   if (now.dt == 0 || (energy_rate == 0 && residual_force == 0)) return false;
   const double change = std::abs(now.energy - state_.energy_before);
-  return (energy_rate == 0 || change < energy_rate * now.energy * now.dt) &&
+  return (energy_rate == 0 || change < energy_rate * std::abs(now.energy) * now.dt) &&
          (residual_force == 0 || now.max_speed < residual_force);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace lamella {
@@ -59,11 +60,13 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Ves
   without.area_difference = {};
   constraints_ = Constraints(without);
   constraints_.begin(begin);
+  set_lengths(scene);
   measure(0);
   if (drift(0) > worst_drift && drift(0) < start_drift) begin = quantities(integrals_); // a sphere
   begin[2] = integrals_.int_KM();
   constraints_ = Constraints(scene);
   constraints_.begin(begin);
+  set_lengths(scene);
   const Quantities corrected = quantities(integrals_);
   measure_forces(0);
   if (phases_) set_quantities(corrected);
@@ -93,7 +96,16 @@ Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& f
   }
   band_.restore(state.band);
   constraints_.restore(state.constraints);
+  set_lengths(scene);
   measure(time);
+}
+
+/// Those that are left to the size of the vesicle.
+void Vesicle::set_lengths(const Scene& scene) {
+  constexpr double range = 0.04;
+  const double radius = constraints_.radius();
+  if (scene.contact.disjoining_range == 0) film_.range = range * radius;
+  if (phases_) phases_->set_drag(scene.line.drag > 0 ? scene.line.drag : radius);
 }
 
 void Vesicle::note_origin() {
@@ -180,7 +192,8 @@ void Vesicle::lead_to_constraints(double time) {
   const Eigen::Matrix4d effect = effect_of_directions();
   for (int pass = 0; pass == 0 || (pass < most_corrections && drift(time) > worst_drift); pass++) {
     const Quantities now = quantities(integrals_);
-    const Eigen::Vector4d u = constraints_.combination(effect, constraints_.target(time) - now);
+    const Eigen::Vector4d u =
+        constraints_.combination(effect, constraints_.target(time) - now, integrals_);
     const bool anew = displace(u);
     measure_forces(time);
     if (phases_ && !anew) return set_quantities(now + effect * u);
@@ -242,7 +255,7 @@ Eigen::Matrix4d Vesicle::effect_of_directions() const {
     const std::vector<double>& moves = directions_[m].moves;
     effect.col(m) = change_from(moments([&](std::size_t i) { return moves[i]; }));
   }
-  if (phases_) effect(with_boundary, with_boundary) -= phase_integrals_.length;
+  if (phases_) effect(with_boundary, with_boundary) -= phase_integrals_.length / phases_->drag();
   return effect;
 }
 
@@ -257,7 +270,8 @@ bool Vesicle::displace(const Eigen::Vector4d& u) {
     for (const int m : constraints_.held()) moves[i] += u[m] * directions_[m].moves[i];
     greatest = std::max(greatest, std::abs(moves[i]));
   }
-  if (phases_) greatest = std::max(greatest, std::abs(u[with_boundary]));
+  const double along = phases_ ? u[with_boundary] / phases_->drag() : 0;
+  greatest = std::max(greatest, std::abs(along));
   const double scale = greatest > longest ? longest / greatest : 1;
   for (std::size_t i = 0; i < surface_.size(); i++) surface_.displace(i, scale * moves[i], band_);
   std::span<double> c = phi_.coefficients();
@@ -267,7 +281,7 @@ bool Vesicle::displace(const Eigen::Vector4d& u) {
     c[band_.node()[s]] -= scale * change;
   }
   if (phases_)
-    for (double& p : phases_->psi().coefficients()) p += scale * u[with_boundary];
+    for (double& p : phases_->psi().coefficients()) p += scale * along;
   if (!delicate_ && greatest < far_displacement * grid().spacing) return false;
   locate_membrane();
   surface_.curvatures(phi_, band_);
@@ -365,6 +379,10 @@ double Vesicle::velocity(std::size_t i) const {
 
 double Vesicle::max_line_speed() const { return phases_ ? phases_->max_line_speed() : 0; }
 
+double Vesicle::line_time() const {
+  return phases_ ? phases_->relaxation_time() : std::numeric_limits<double>::infinity();
+}
+
 double Vesicle::stiffness() const {
   return phases_ ? phases_->stiffest() : bending_.bending_modulus;
 }
@@ -395,6 +413,11 @@ double Vesicle::longest_step(double time) const {
   return longest;
 }
 
+bool Vesicle::is_driven(double from, double to) const {
+  return constraints_.is_led(from, to) ||
+         (phases_ && phases_->is_curved(from) != phases_->is_curved(to));
+}
+
 bool Vesicle::turns_at(double time) const {
   return constraints_.turns_at(time) ||
          (phases_ && phases_->is_curved(time) && !phases_->is_curved(time * (1 - 1e-9)));
@@ -408,6 +431,16 @@ double Vesicle::energy() const {
   const Quantities now = quantities(integrals_);
   return integrals_.energy + interfacial + stretching + film_energy_ +
          constraints_.potential(0, now).value_or(0) + constraints_.potential(2, now).value_or(0);
+}
+
+double Vesicle::energy_scale() const {
+  const double softest =
+      phases_ ? std::min(phases_->ld().bending_modulus, phases_->lo().bending_modulus)
+              : bending_.bending_modulus;
+  const double line = phases_ ? phases_->line().tension * phases_->boundary().length() : 0;
+  const double stretching = stretch_ ? stretch_->energy(surface_) : 0;
+  return std::max(8 * std::numbers::pi * softest,
+                  integrals_.energy + line + stretching + film_energy_);
 }
 
 Measures Vesicle::measures(double time) const {
@@ -451,6 +484,7 @@ Measures Vesicle::measures(double time) const {
   m.pressure_energy = constraints_.potential(0, quantities(integrals_));
   m.area_difference_energy = constraints_.potential(2, quantities(integrals_));
   if (film_.exists()) m.film_energy = film_energy_;
+  m.energy_rise = 0;
   const Topology topology = topology_of(grid(), phi_.nodal());
   m.components = topology.components;
   m.genus = topology.genus;

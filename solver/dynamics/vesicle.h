@@ -48,6 +48,10 @@ public:
 
   /// All terms.
   double energy() const;
+  /// What changes of the energy are compared with: the sum of those terms that cannot be negative
+  /// (bending, line tension, stretch, films), or the bending energy of a sphere, 8 pi kappa of the
+  /// softer phase, where that is more. Never 0, unlike the energy.
+  double energy_scale() const;
   /// All but the step.
   Measures measures(double time) const;
   /// Largest relative deviation from the constraints.
@@ -57,9 +61,14 @@ public:
   double max_speed() const { return max_speed_; }
   /// Of the phase boundary along the membrane.
   double max_line_speed() const;
+  /// In which a bump of the phase boundary of the size of the grid relaxes; without one infinity.
+  double line_time() const;
   double max_force() const { return max_force_; }
   /// What constraints, films and the start of spontaneous curvature allow.
   double longest_step(double time) const;
+  /// Between two times the energy changes by other means than motion: a constraint is led on, or
+  /// spontaneous curvature sets in.
+  bool is_driven(double from, double to) const;
   /// A ramp begins or ends at this time, or spontaneous curvature sets in.
   bool turns_at(double time) const;
 
@@ -101,9 +110,10 @@ private:
     std::vector<double> moves; ///< the displacement at the samples
   };
   /// Of the four functions that multipliers push along; the last moves the phase boundary too, by
-  /// -1.
+  /// -1 / drag.
   static constexpr int directions = 4, with_boundary = 3;
 
+  void set_lengths(const Scene& scene);
   double leave_sphere();
   void note_origin();
   void locate();

@@ -29,7 +29,7 @@ Choice choice(std::vector<std::string_view> names) {
 const Range any{};
 const Range positive{.low = 0, .above_low = true};
 const Range not_negative{.low = 0};
-const Range any_time{.low = 0, .high = 1e30};
+const Range any_time{.low = 0};
 
 // The one description of the scene format. A new parameter is a member of Scene and an entry here:
 // section, name, access, unit, range, cases, help, default in words.
@@ -45,7 +45,8 @@ std::vector<Key> make_keys() {
 
       {"grid", "nodes", member<&Scene::nodes>(), "", {.low = 16, .high = 512, .multiple_of = 8}, {},
        "nodes along x, y, z, equally spaced; one number for a cube"},
-      {"grid", "half_width", member<&Scene::half_width>(), "length", {.low = 1e-6}, {},
+      {"grid", "half_width", member<&Scene::half_width>(), "length",
+       {.low = 1e-12, .high = 1e12}, {},
        "half the width, along its shortest axis, of the periodic box around the origin"},
 
       {"shape", "kind", choice<&Scene::shape, &Shape::kind>(
@@ -86,7 +87,7 @@ std::vector<Key> make_keys() {
        "number of arms about the shape's axis that it seeds; 0: none, random in all directions"},
 
       {"membrane", "bending_modulus", member<&Scene::membrane, &Membrane::bending_modulus>(),
-       "energy", {.low = 1e-6}, one_phase, "bending modulus of the Helfrich energy"},
+       "energy", {.low = 1e-30}, one_phase, "bending modulus of the Helfrich energy"},
       {"membrane", "spontaneous_curvature",
        member<&Scene::membrane, &Membrane::spontaneous_curvature>(), "1/length", any, one_phase,
        "preferred sum of the principal curvatures, which is -2 on the unit sphere"},
@@ -113,14 +114,14 @@ std::vector<Key> make_keys() {
        two_phases, "until then the spontaneous curvatures of both phases are 0"},
 
       {"ld", "bending_modulus", member<&Scene::ld, &Phase::bending_modulus>(), "energy",
-       {.low = 1e-6}, two_phases, "bending modulus κ of the Ld phase"},
+       {.low = 1e-30}, two_phases, "bending modulus κ of the Ld phase"},
       {"ld", "spontaneous_curvature", member<&Scene::ld, &Phase::spontaneous_curvature>(),
        "1/length", any, two_phases, "its spontaneous curvature C: preferred sum of the principal curvatures"},
       {"ld", "gaussian_modulus", member<&Scene::ld, &Phase::gaussian_modulus>(), "energy", any,
        two_phases, "its Gaussian modulus κ_G; only the difference between the phases has an effect"},
 
       {"lo", "bending_modulus", member<&Scene::lo, &Phase::bending_modulus>(), "energy",
-       {.low = 1e-6}, two_phases, "bending modulus κ of the Lo phase"},
+       {.low = 1e-30}, two_phases, "bending modulus κ of the Lo phase"},
       {"lo", "spontaneous_curvature", member<&Scene::lo, &Phase::spontaneous_curvature>(),
        "1/length", any, two_phases,
        "its spontaneous curvature C: preferred sum of the principal curvatures"},
@@ -135,6 +136,8 @@ std::vector<Key> make_keys() {
        two_phases, "κ_τ: energy per length and geodesic torsion"},
       {"line", "normal_modulus", member<&Scene::line, &Line::normal_modulus>(), "energy", any,
        two_phases, "κ_n: energy per length and normal curvature"},
+      {"line", "drag", member<&Scene::line, &Line::drag>(), "length", not_negative, two_phases,
+       "drag of the phase boundary along the membrane, per length, over that of the membrane, per area; 0 stands for the radius of the sphere of the vesicle's area"},
 
       {"stretch", "modulus", member<&Scene::stretch, &Stretch::modulus>(), "energy/length²",
        not_negative, {},
@@ -150,7 +153,8 @@ std::vector<Key> make_keys() {
        member<&Scene::volume, &VolumeConstraint::ramp, &Ramp::start_times>(), "time", any_time,
        {"ramped"}, "when to set out for each target"},
       {"volume", "rate", member<&Scene::volume, &VolumeConstraint::ramp, &Ramp::rate>(), "1/time",
-       positive, {"ramped"}, "change of the reduced volume per unit of time"},
+       not_negative, {"ramped"},
+       "change of the reduced volume per unit of time; 0 stands for 0.4 κ/R⁴, R the radius of the sphere of the vesicle's area"},
       {"volume", "pressure", member<&Scene::volume, &VolumeConstraint::pressure>(),
        "energy/length³", any, {"free"}, "pressure inside less that outside"},
 
@@ -168,7 +172,8 @@ std::vector<Key> make_keys() {
        "when to set out for each target; free before the first"},
       {"area_difference", "rate",
        member<&Scene::area_difference, &AreaDifferenceConstraint::ramp, &Ramp::rate>(), "1/time",
-       positive, {"ramped"}, "change of the reduced area difference per unit of time"},
+       not_negative, {"ramped"},
+       "change of the reduced area difference per unit of time; 0 stands for 0.4 κ/R⁴, R the radius of the sphere of the vesicle's area"},
       {"area_difference", "multiplier",
        member<&Scene::area_difference, &AreaDifferenceConstraint::multiplier>(), "energy/length",
        any, {"free"}, "coefficient of the Gaussian curvature in the outward normal velocity"},
@@ -179,20 +184,21 @@ std::vector<Key> make_keys() {
        member<&Scene::contact, &Contact::disjoining_pressure>(), "energy/length³", not_negative, {},
        "pressure that holds films of inner fluid open, at zero thickness; 0: none"},
       {"contact", "disjoining_range", member<&Scene::contact, &Contact::disjoining_range>(),
-       "length", positive, {}, "thickness over which it falls by a factor e"},
+       "length", not_negative, {},
+       "thickness over which it falls by a factor e; 0 stands for a 25th of the radius of the sphere of the vesicle's area"},
       {"contact", "rupture_thickness", member<&Scene::contact, &Contact::rupture_thickness>(),
        "length", not_negative, {},
        "films as thin as this rupture; 0: as thin as the grid can resolve"},
 
-      {"run", "end_time", member<&Scene::end_time>(), "time",
-       {.low = 0, .high = 1e30, .above_low = true}, {}, "when the run ends; it starts at 0"},
+      {"run", "end_time", member<&Scene::end_time>(), "time", any_time, {},
+       "when the run ends; it starts at 0; 0 stands for 1.6e-3 half_width⁴/κ"},
 
       {"stop", "energy_rate", member<&Scene::stop, &Stop::energy_rate>(), "1/time", any_time, {},
        "the run ends earlier, at rest, where the relative rate of the energy falls below this; 0: never"},
       {"stop", "residual_force", member<&Scene::stop, &Stop::residual_force>(), "length/time",
        any_time, {}, "the same for the largest normal velocity; given both, both must hold; 0: never"},
       {"stop", "topology_changes", member<&Scene::stop, &Stop::topology_changes>(), "",
-       {.low = 0}, {}, "the run ends after so many pinches and ruptures; 0: never"},
+       {.low = 0, .high = 1e6}, {}, "the run ends after so many pinches and ruptures; 0: never"},
       {"stop", "wall_time", member<&Scene::stop, &Stop::wall_time>(), "seconds", any_time, {},
        "the run ends after so long by the clock; 0: never"},
 

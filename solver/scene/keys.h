@@ -27,7 +27,7 @@ using Access = std::variant<Member<double>, Member<int>, Member<bool>, Member<st
 
 /// Allowed numbers, for vectors and lists each of them. What is not finite is never allowed.
 struct Range {
-  double low = -1e6, high = 1e6;
+  double low = -1e30, high = 1e30;
   bool above_low = false;  ///< low itself is not allowed
   bool below_high = false; ///< high itself is not allowed
   int multiple_of = 0;     ///< 0: any

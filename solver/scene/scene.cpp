@@ -1,9 +1,22 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lamella {
 
 Grid Scene::grid() const { return {nodes, 2 * half_width / *std::ranges::min_element(nodes)}; }
+
+double Scene::stiffest() const {
+  return has_phases() ? std::max(ld.bending_modulus, lo.bending_modulus) : membrane.bending_modulus;
+}
+
+double Scene::end() const {
+  return end_time > 0 ? end_time : 1.6e-3 * std::pow(half_width, 4) / stiffest();
+}
+
+double Scene::longest_step() const {
+  return numerics.max_time_step > 0 ? numerics.max_time_step : end() / 16;
+}
 
 } // namespace lamella

@@ -84,6 +84,9 @@ struct Phase {
 struct Line {
   double tension = 0;
   double geodesic_modulus = 0, torsion_modulus = 0, normal_modulus = 0;
+  /// Of the boundary along the membrane, per length, over that of the membrane per area: a length.
+  /// 0: the radius of the sphere of the vesicle's area.
+  double drag = 0;
 
   bool operator==(const Line&) const = default;
 };
@@ -104,7 +107,8 @@ enum class Constraint { fixed, ramped, free };
 struct Ramp {
   std::vector<double> targets;        ///< in the unit of the constrained quantity
   std::vector<double> start_times{0}; ///< when to set out for each; as many, ascending
-  double rate = 5;                    ///< change per unit of time
+  double rate = 0; ///< change per unit of time; 0: 0.4 bending_modulus / R^4, R the radius of the
+                   ///< sphere of the vesicle's area
 
   bool operator==(const Ramp&) const = default;
 };
@@ -133,8 +137,9 @@ struct AreaDifferenceConstraint {
 struct Contact {
   bool topology_changes = true;   ///< false: the run stops where one is about to happen
   double disjoining_pressure = 0; ///< at zero thickness, of films of fluid inside; 0: none
-  double disjoining_range = 0.02; ///< length over which it falls by a factor e
-  double rupture_thickness = 0;   ///< length; 0: as thin as the grid can resolve
+  double disjoining_range = 0;    ///< length over which it falls by a factor e; 0: R / 25, R the
+                               ///< radius of the sphere of the vesicle's area
+  double rupture_thickness = 0; ///< length; 0: as thin as the grid can resolve
 
   bool operator==(const Contact&) const = default;
 };
@@ -152,7 +157,7 @@ struct Stop {
 struct Numerics {
   double tolerance =
       0.005; ///< local time error allowed per step, rms over the membrane, in grid spacings
-  double max_time_step = 0; ///< 0: end_time / 16
+  double max_time_step = 0; ///< 0: a 16th of the whole run
 
   bool operator==(const Numerics&) const = default;
 };
@@ -163,8 +168,8 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
-/// All parameters of a run. Lengths in box units, drag coefficient 1, so time is in length^4 /
-/// bending_modulus.
+/// All parameters of a run. The membrane's drag is 1, so time is in length^4 / energy. No number in
+/// here hides a length or an energy: a scene in other units is the same scene.
 struct Scene {
   std::string
       name; ///< of the run: file name without folder and extension unless the scene says otherwise
@@ -183,13 +188,19 @@ struct Scene {
   VolumeConstraint volume; ///< the areas, of each phase, are always fixed
   AreaDifferenceConstraint area_difference;
   Contact contact;
-  double end_time = 1.6e-3;
+  double end_time = 0; ///< 0: see end()
   Stop stop;
   Numerics numerics;
   Output output;
 
   Grid grid() const;
   bool has_phases() const { return domains.kind != DomainsKind::none; }
+  /// The largest bending modulus.
+  double stiffest() const;
+  /// When the run ends: end_time or, where that is 0, 1.6e-3 half_width^4 / stiffest().
+  double end() const;
+  /// The longest time step: max_time_step or, where that is 0, a 16th of end().
+  double longest_step() const;
   bool operator==(const Scene&) const = default;
 };
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lamella {
 namespace {
@@ -24,6 +25,7 @@ constexpr double least_radius_of_curvature = 0.4;
 constexpr double largest_curvature_times_spacing = 1;
 constexpr double least_wrinkling_length = 2;
 constexpr double least_wavelength = 4;                  // of a perturbation
+constexpr double longest_unstable_wave = 8;             // of a phase boundary
 constexpr double least_rim_radius = 3.5, least_gap = 4; // of domains
 constexpr double rounding = 1e-9;
 
@@ -53,7 +55,11 @@ public:
       ramp("area_difference", scene_.area_difference.ramp);
     spontaneous_curvatures();
     pressure();
-    if (scene_.has_phases()) sphere_can_leave();
+    if (scene_.has_phases()) {
+      sphere_can_leave();
+      gaussian_moduli();
+      line_moduli();
+    }
   }
 
 private:
@@ -169,6 +175,40 @@ private:
       refuse({"volume.constraint", "shape.kind"},
              "a sphere that keeps its volume and area cannot change its shape; allowed: \"ramped\" "
              "to a reduced volume below 1, or \"free\", or another kind in [shape]");
+  }
+
+  /// A wave along a straight boundary, on both sides the shape of least energy: where the Gaussian
+  /// moduli differ by more, its energy is negative at any wavelength, and without bound.
+  void gaussian_moduli() const {
+    const double of_line = scene_.line.geodesic_modulus;
+    const double jump = scene_.ld.gaussian_modulus + of_line - scene_.lo.gaussian_modulus;
+    const double least = -4 * scene_.ld.bending_modulus, most = 4 * scene_.lo.bending_modulus;
+    if (jump >= least && jump <= most) return;
+    refuse({"ld.gaussian_modulus", "lo.gaussian_modulus", "line.geodesic_modulus"},
+           fmt::format("the energy has no lower bound: the Gaussian modulus of Ld, with "
+                       "line.geodesic_modulus, less that of Lo is {:g}; allowed: from -4 times "
+                       "ld.bending_modulus, {:g}, to 4 times lo.bending_modulus, {:g}",
+                       jump, least, most));
+  }
+
+  /// Waves of the boundary shorter than this have a negative energy: the torsion or the normal
+  /// modulus gains more from them than the tension takes, and without bound. They must be too short
+  /// for the grid.
+  void line_moduli() const {
+    const Line& line = scene_.line;
+    const double kappa = 2 / (1 / scene_.ld.bending_modulus + 1 / scene_.lo.bending_modulus);
+    const double torsion = std::abs(line.torsion_modulus), normal = std::abs(line.normal_modulus);
+    if (torsion == 0 && normal == 0) return;
+    const double unstable = std::numbers::pi / 2 * (torsion * torsion + normal * normal) / kappa;
+    const double least = unstable / (longest_unstable_wave * scene_.grid().spacing);
+    if (line.tension >= least * (1 - rounding)) return;
+    constexpr double rounded_up = 1.005; // to three digits
+    refuse({torsion > normal ? "line.torsion_modulus" : "line.normal_modulus", "line.tension"},
+           fmt::format("the energy has no lower bound: with torsion_modulus = {:g} and "
+                       "normal_modulus = {:g} a phase boundary of tension {:g} gains energy from "
+                       "waves that the grid resolves; allowed: a line.tension of at least {:.3g}",
+                       line.torsion_modulus, line.normal_modulus, line.tension,
+                       rounded_up * least));
   }
 
   void directions() const {

@@ -16,7 +16,7 @@
 namespace lamella {
 namespace {
 
-constexpr int format = 1;
+constexpr int format = 2;
 constexpr const char* group_name = "checkpoint"; // in "lamella", which every frame has
 constexpr std::size_t most_responses = 2;
 
@@ -199,6 +199,9 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"steps/renormalised", number(s.renormalised)},
               {"steps/next_parting", number(s.next_parting)},
               {"steps/next_search", number(s.next_search)},
+              {"steps/failures", number(s.failures)},
+              {"steps/failed_before", number(s.failed_before)},
+              {"steps/driven", number(s.driven)},
               {"box/cells", s.cells},
               {"topology/components", number(s.topology.components)},
               {"topology/genus", number(s.topology.genus)},

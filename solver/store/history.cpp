@@ -83,6 +83,7 @@ Measures measures_with(std::span<const std::string> columns) {
   if (has("c_min")) measures.stretch.emplace();
   for (const auto& [column, term] : optional_terms(measures))
     if (has(column)) term->emplace();
+  if (has("energy_rise")) measures.energy_rise.emplace(); // earlier versions wrote none
   return measures;
 }
 
@@ -108,6 +109,7 @@ Row row_of(Measures& m) {
   if (m.stretch) append(row, *m.stretch);
   for (const auto& [column, term] : optional_terms(m))
     if (*term) row.push_back({column, &**term, "energy"});
+  if (m.energy_rise) row.push_back({"energy_rise", &*m.energy_rise});
   return row;
 }
 

@@ -35,7 +35,7 @@ Measures state_with_phases() {
 std::string summary_of(const Measures& start, const Measures& end) {
   Course course(start);
   course.add(end);
-  return summary(Scene(), course, {}, {}, 1);
+  return summary(Scene(), course, {}, {}, false, 1);
 }
 
 TEST(Summary, tells_of_both_phases_and_their_boundary) {

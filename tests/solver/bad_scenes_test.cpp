@@ -39,6 +39,7 @@ const std::string torus = "[shape]\nkind = \"torus\"\n";
 const std::string fine = "[shape]\nkind = \"sphere\"\nradius = 0.5\n";
 const std::string ramp = "[volume]\nconstraint = \"ramped\"\n";
 const std::string frame = "[shape]\nkind = \"frame\"\n";
+const std::string free = "[volume]\nconstraint = \"free\"\n";
 const std::string cap = fine + "[domains]\nkind = \"cap\"\n";
 const std::string caps = fine + "[domains]\nkind = \"caps\"\n";
 
@@ -80,7 +81,7 @@ std::vector<BadScene> bad_scenes() {
 
       // Types
       {"TextForNumber", "[run]\nend_time = \"long\"\n",
-       "bad.toml:2: [run] end_time: the text \"long\"", "allowed: a number above 0"},
+       "bad.toml:2: [run] end_time: the text \"long\"", "allowed: a number from 0"},
       {"FractionForInteger", "[output]\nframes = 10.0\n",
        "bad.toml:2: [output] frames: the number 10", "an integer from 2"},
       {"BooleanForNumber", "[run]\nend_time = true\n",
@@ -158,8 +159,8 @@ std::vector<BadScene> bad_scenes() {
        "bad.toml:2: [membrane] bending_modulus: -1", "out of range"},
       {"NoModulus", "[membrane]\nbending_modulus = 0\n",
        "bad.toml:2: [membrane] bending_modulus: 0", "out of range"},
-      {"NoTime", "[run]\nend_time = 0\n", "bad.toml:2: [run] end_time: 0 is out of range",
-       "above 0"},
+      {"NegativeTime", "[run]\nend_time = -1\n", "bad.toml:2: [run] end_time: -1 is out of range",
+       "from 0"},
       {"TimeOverflows", "[run]\nend_time = 1e999\n", "bad.toml:2: ", "1e999"},
       {"NegativeTimeStep", "[numerics]\nmax_time_step = -1e-5\n",
        "bad.toml:2: [numerics] max_time_step", "range"},
@@ -183,7 +184,8 @@ std::vector<BadScene> bad_scenes() {
        "bad.toml:3: [volume] targets: 1.1 is out of range", "up to 1"},
       {"NanTarget", ramp + "targets = nan\n", "bad.toml:3: [volume] targets: nan",
        "not a finite number"},
-      {"NoRate", ramp + "targets = [0.9]\nrate = 0\n", "bad.toml:4: [volume] rate: 0", "above 0"},
+      {"NegativeRate", ramp + "targets = [0.9]\nrate = -1\n", "bad.toml:4: [volume] rate: -1",
+       "from 0"},
       {"ManyArms", "[perturbation]\nfold = 13\n", "bad.toml:2: [perturbation] fold: 13",
        "from 0 to 12"},
       {"NegativeSeed", "[perturbation]\nseed = -1\n", "bad.toml:2: [perturbation] seed: -1",
@@ -200,7 +202,14 @@ std::vector<BadScene> bad_scenes() {
       {"BulgeBeyondAHemisphere", caps + "bulge = 91\n", "bad.toml:6: [domains] bulge: 91",
        "from -90 to 90"},
       {"NoModulusOfLd", cap + "[ld]\nbending_modulus = 0\n",
-       "bad.toml:7: [ld] bending_modulus: 0 is out of range", "from 1e-06"},
+       "bad.toml:7: [ld] bending_modulus: 0 is out of range", "from 1e-30"},
+      {"GaussianModuliWithoutBound", cap + "[lo]\ngaussian_modulus = 4.1\n" + free,
+       "bad.toml:7: [lo] gaussian_modulus: the energy has no lower bound",
+       "ld.bending_modulus, -4"},
+      {"TorsionWithoutTension", cap + "[line]\ntorsion_modulus = 0.5\n" + free,
+       "bad.toml:7: [line] torsion_modulus: the energy has no lower bound",
+       "line.tension of at least"},
+      {"NegativeDrag", cap + "[line]\ndrag = -1\n", "bad.toml:7: [line] drag: -1", "from 0"},
       {"NegativeLineTension", cap + "[line]\ntension = -1\n", "bad.toml:7: [line] tension: -1",
        "from 0"},
       {"NegativeStretchModulus", "[stretch]\nmodulus = -1\n", "bad.toml:2: [stretch] modulus: -1",

@@ -41,8 +41,8 @@ struct Ring : TwoPhases {
   HeldAreas::Integrals find(HeldAreas& held, std::span<const double> F = {}) const {
     held.find(band, domains_of(band, psi.nodal()), boundary);
     held.sample(grid, geometry, point);
-    const std::vector<double> force(boundary.points().size(), 1);
-    return held.integrate(geometry, share, F, boundary, force);
+    const std::vector<double> speed(boundary.points().size(), 1);
+    return held.integrate(geometry, share, F, boundary, speed, 1);
   }
 
   BoundaryFeet feet;
@@ -67,7 +67,7 @@ TEST(HeldAreas, AreAllOfLdWhereLipidFlowsFreely) {
   const double exact = ring_area * (std::cos(north) - std::cos(south));
   EXPECT_NEAR(sum.area[0] / exact, 1, 1e-3);
   EXPECT_NEAR(sum.line_gram(0, 0) / (length(north) + length(south)), 1, 1e-4);
-  EXPECT_NEAR(sum.variation[0] / (length(north) + length(south)), 1, 1e-4); // F = 0, g = 1
+  EXPECT_NEAR(sum.variation[0] / (length(north) + length(south)), 1, 1e-4); // F = 0, a speed of 1
   EXPECT_NEAR(sum.with_surface(0, 0) / (-2 / R * exact), 1, 1e-3);
 }
 

@@ -1,5 +1,6 @@
 #include "runs.h"
 #include "scene/builtin.h"
+#include "store/history.h"
 
 #include <bit>
 #include <cstdint>
@@ -12,24 +13,13 @@
 namespace lamella {
 namespace {
 
-/// All numbers of a row of the history, as bits.
-std::vector<std::uint64_t> bits(const Measures& m) {
-  std::vector<double> all{m.time,           m.dt,
-                          m.energy,         m.bending_energy,
-                          m.int_KM2,        m.P,
-                          m.sigma,          m.K_multiplier,
-                          m.area,           m.volume,
-                          m.reduced_volume, m.area_difference,
-                          m.area_drift,     m.volume_drift,
-                          m.max_speed,      double(m.components),
-                          double(m.genus)};
-  if (const auto& p = m.phases)
-    all.insert(all.end(), {p->line_energy, p->sigma_Ld, p->sigma_Lo, p->area_Ld, p->line_length,
-                           p->max_line_speed, double(p->domains_Ld), double(p->domains_Lo)});
-  if (const auto& s = m.stretch) all.insert(all.end(), {s->energy, s->least, s->greatest});
-  std::vector<std::uint64_t> result;
-  for (const double x : all) result.push_back(std::bit_cast<std::uint64_t>(x));
-  return result;
+/// A row of the history, as bits.
+std::vector<std::uint64_t> bits(Measures m) {
+  std::vector<std::uint64_t> all;
+  for (const Field& field : row_of(m))
+    all.push_back(
+        std::bit_cast<std::uint64_t>(std::visit([](auto* x) { return double(*x); }, field.value)));
+  return all;
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -110,6 +100,31 @@ TEST(Restart, IsExactWithStretch) {
 TEST(Restart, IsExactWithDomainsThatAreHeld) {
   Scene scene = builtin_on("fig15a", 40);
   EXPECT_EQ(restarts_that_agree(scene, 16, at_steps({1, 4, 9})), 3);
+}
+
+TEST(Restart, IsExactWithFilms) {
+  Scene scene = scene_of(ellipsoid({0.65, 0.5, 0.3}), 32, 2e-4);
+  scene.contact.disjoining_pressure = 3000; // its range by default
+  EXPECT_EQ(restarts_that_agree(scene, 20, at_steps({1, 6, 11})), 3);
+}
+
+TEST(Restart, IsExactUnderAPressureAndAMultiplier) {
+  Scene scene = scene_of(ellipsoid({0.65, 0.5, 0.3}), 32, 2e-4);
+  scene.volume.constraint = Constraint::free;
+  scene.volume.pressure = -60;
+  scene.area_difference.multiplier = 4;
+  EXPECT_EQ(restarts_that_agree(scene, 20, at_steps({1, 6, 11})), 3);
+}
+
+TEST(Restart, IsExactWhereSpontaneousCurvatureSetsIn) {
+  Scene scene = builtin_on("fig9", 40);
+  scene.line.drag = 0; // by default
+  scene.ld.spontaneous_curvature = -3;
+  scene.curvature_start_time = 1e-5;
+  const auto around_it = [&, done = 0](const Simulation& sim, int) mutable {
+    return sim.time() > 0.8 * scene.curvature_start_time && done++ < 6;
+  };
+  EXPECT_EQ(restarts_that_agree(scene, 40, around_it), 6);
 }
 
 TEST(Restart, IsExactRightAfterANeckParted) {

@@ -70,7 +70,7 @@ std::optional<Start> SceneRun::end_of_earlier(const Trajectory::GoOn& go_on) {
   }
   Trajectory* trajectory = earlier_->begin(go_on);
   if (!trajectory) return {};
-  const State end = trajectory->at(earlier.end_time, go_on);
+  const State end = trajectory->at(earlier.end(), go_on);
   if (trajectory->interrupted()) return {};
   if (trajectory->failure())
     throw RunError(fmt::format("{}, where the scene starts, stopped at t = {:.6g}: {}",

@@ -25,12 +25,12 @@ Ramp rest_of(Ramp ramp, double time) {
 
 /// The scene from a stored state on, its clock at 0 there.
 Scene rest_of(Scene scene, double time) {
-  if (scene.numerics.max_time_step == 0) scene.numerics.max_time_step = scene.end_time / 16;
+  scene.numerics.max_time_step = scene.longest_step();
   scene.shape = {.kind = ShapeKind::frame};
   scene.perturbation = {};
   if (scene.has_phases()) scene.domains = {.kind = DomainsKind::frame};
   scene.curvature_start_time = std::max(0.0, scene.curvature_start_time - time);
-  scene.end_time -= time;
+  scene.end_time = scene.end() - time;
   if (scene.volume.constraint == Constraint::ramped)
     scene.volume.ramp = rest_of(scene.volume.ramp, time);
   if (scene.area_difference.constraint == Constraint::ramped)
@@ -43,8 +43,8 @@ Scene rest_of(Scene scene, double time) {
 std::vector<double> stored_times(const Scene& scene) {
   const int last = scene.output.frames - 1;
   std::vector<double> times;
-  for (int n = 0; n < last; ++n) times.push_back(scene.end_time * n / last);
-  times.push_back(scene.end_time);
+  for (int n = 0; n < last; ++n) times.push_back(scene.end() * n / last);
+  times.push_back(scene.end());
   return times;
 }
 
