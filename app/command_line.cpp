@@ -262,8 +262,9 @@ void add_movie(CLI::App& app, MovieOptions& options) {
   command.footer(movie_notes);
   command.add_option("folder", options.folder, "Output folder of a run")->required()->type_name("");
   command
-      .add_option("-o,--output", options.output,
-                  "File (.mp4, .webm, .avi, .gif) or folder for pictures (default: movie.mp4 in the run's)")
+      .add_option(
+          "-o,--output", options.output,
+          "File (.mp4, .webm, .avi, .gif) or folder for pictures (default: movie.mp4 in the run's)")
       ->type_name("NAME");
   command.add_option("--width", options.width, "In pixels")
       ->check(CLI::Range(200, 4000).description(""))

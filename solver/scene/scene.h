@@ -138,8 +138,8 @@ struct Contact {
   bool topology_changes = true;   ///< false: the run stops where one is about to happen
   double disjoining_pressure = 0; ///< at zero thickness, of films of fluid inside; 0: none
   double disjoining_range = 0;    ///< length over which it falls by a factor e; 0: R / 25, R the
-                               ///< radius of the sphere of the vesicle's area
-  double rupture_thickness = 0; ///< length; 0: as thin as the grid can resolve
+                                  ///< radius of the sphere of the vesicle's area
+  double rupture_thickness = 0;   ///< length; 0: as thin as the grid can resolve
 
   bool operator==(const Contact&) const = default;
 };

@@ -451,8 +451,8 @@ protected:
   }
 
   Result movie(const std::string& output) {
-    return call(
-        words("movie run --seconds 0.2 --rate 10 --width 240 --height 200", {"--output=" + output}));
+    return call(words("movie run --seconds 0.2 --rate 10 --width 240 --height 200",
+                      {"--output=" + output}));
   }
 
 private:

@@ -5,6 +5,7 @@ gui_test.py PARAVIEW LAMELLA PLUGIN FOLDER plays the tests below, screenshots an
 
 import mmap
 import os
+import re
 import shutil
 import struct
 import subprocess

@@ -281,8 +281,8 @@ class Errors(unittest.TestCase):
 
     def test_times(self):
         run = lamella.run(SCENE)
-        for time in (None, "late", [1], float("nan")):
-            self.check(lambda: run.at(time), "a time is a number")
+        for moment in (None, "late", [1], float("nan")):
+            self.check(lambda: run.at(moment), "a time is a number")
         self.assertEqual(run.at(float("inf")).time, 1e-4)
 
     def test_runs_that_stop(self):
