@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "kernels/kernels.h"
+#include "progress.h"
 #include "scene/keys.h"
 #include "scene/nearest.h"
 #include "usage_error.h"
@@ -13,13 +14,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace lamella {
 
 namespace {
 
 constexpr const char* introduction =
-    "Dynamics of lipid vesicles: level sets, bending energy, fixed volume and area.";
+    "Lipid vesicles of one or two phases: how they change their shape, and where that ends.";
 
 constexpr const char* first_steps = R"(First steps:
   lamella scenes                       what there is to run
@@ -35,7 +37,8 @@ constexpr const char* run_notes = R"(Examples:
 
 A name without folder and ".toml" is first looked for among the built-in scenes; ./NAME is always a
 file. The output folder receives figure.png, energy.png, history.csv, events.csv, frames/,
-scene.toml, status.toml and summary.txt. Ctrl-C ends a run early and stores what there is.
+scene.toml, status.toml and summary.txt. Ctrl-C ends a run early and stores what there is; so do
+SIGTERM, SIGHUP, SIGUSR2 and SIGXCPU. SIGUSR1 asks for a checkpoint.
 
 A run that was interrupted or killed goes on as if it had not been:
   lamella run --resume oblate
@@ -437,7 +440,9 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
     if (argc < 2) throw CLI::CallForHelp();
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
-    app.exit(e);
+    std::ostringstream text;
+    app.exit(e, text, text);
+    say(text.str());
     return [] { return success; };
   } catch (const CLI::ParseError& e) {
     refuse(app, e);

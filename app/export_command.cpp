@@ -4,14 +4,18 @@
 #include "exit_code.h"
 #include "fields/state_data.h"
 #include "interrupt.h"
+#include "output_folder.h"
 #include "progress.h"
+#include "regular_file.h"
 #include "render/filter_output.h"
-#include "run_folder.h"
-#include "store/atomic_file.h"
+#include "run_contents.h"
+#include "run_names.h"
+#include "surface_collection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <vtkMembraneSurface.h>
 #include <vtkNew.h>
 #include <vtkPhaseBoundary.h>
@@ -23,39 +27,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Polygons over time: membrane.pvd lists membrane_0000.vtp and so on.
-class Collection {
-public:
-  Collection(fs::path folder, std::string name)
-      : folder_(std::move(folder)), name_(std::move(name)) {}
-
-  /// The one of a frame, by its number in the run. Throws StoreError.
-  void add(std::size_t frame, double time, vtkPolyData& polygons) {
-    const std::string file = fmt::format("{}_{:04}.vtp", name_, frame);
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetInputData(&polygons);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->WriteToOutputStringOn();
-    if (writer->Write() == 0)
-      throw StoreError(fmt::format("{}: not written: VTK ran out of memory", file));
-    write_text_atomically(folder_ / file, writer->GetOutputString());
-    entries_ += fmt::format("    <DataSet timestep=\"{}\" file=\"{}\"/>\n", time, file);
-  }
-
-  /// Throws StoreError.
-  fs::path end() const {
-    const fs::path file = folder_ / (name_ + ".pvd");
-    write_text_atomically(file, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
-                                "version=\"0.1\">\n  <Collection>\n" +
-                                    entries_ + "  </Collection>\n</VTKFile>\n");
-    return file;
-  }
-
-private:
-  fs::path folder_;
-  std::string name_, entries_;
-};
+/// The text of a .vtp file. Throws StoreError.
+std::string vtp_of(vtkPolyData& polygons, const std::string& frame) {
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(&polygons);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0)
+    throw StoreError(fmt::format("{}: not exported: VTK ran out of memory", frame));
+  return writer->GetOutputString();
+}
 
 /// What a filter makes of a frame. Throws StoreError where that is nothing.
 vtkSmartPointer<vtkPolyData> polygons(vtkPolyDataAlgorithm& filter, vtkImageData& image,
@@ -84,32 +66,71 @@ std::vector<std::size_t> frames_at(const render::StoredStates& run,
   return chosen;
 }
 
-} // namespace
+/// Throws StoreError where a file that is not of an earlier export is in the way.
+void refuse_foreign(const Folder& folder, const std::string& collection,
+                    const std::vector<std::size_t>& frames) {
+  const std::vector<std::string> own = exported_files(folder);
+  const auto check = [&](const std::string& file) {
+    if (folder.type_of(file) != fs::file_type::not_found && std::ranges::count(own, file) == 0)
+      throw StoreError(fmt::format("{}: is there already and not of an earlier export; move it "
+                                   "away, or choose another folder with -o",
+                                   (folder.path() / file).string()));
+  };
+  check(collection + ".pvd");
+  for (const std::size_t frame : frames) check(surface_file(collection, frame));
+}
 
-int export_surfaces(const ExportOptions& options) {
-  require_run(options.folder);
-  watch_for_interrupt();
-  const render::StoredStates run(options.folder);
-  const fs::path folder = options.output.empty() ? surfaces_folder(options.folder) : options.output;
-  clear_surfaces(folder);
-  Collection membranes(folder, "membrane"), boundaries(folder, "boundary");
-  int code = success;
-  for (const std::size_t n : frames_at(run, options.times)) {
-    if (interrupt_requested()) {
-      code = interrupted;
-      break;
-    }
+/// Writes the frames of a run, as far as no interrupt is requested.
+void write_surfaces(const render::StoredStates& run, const std::vector<std::size_t>& frames,
+                    const Folder& folder) {
+  const bool has_phases = run.scene().has_phases();
+  SurfaceCollection membranes(folder, "membrane"), boundaries(folder, "boundary");
+  for (const std::size_t n : frames) {
+    if (interrupt_requested()) break;
     const SeriesEntry& frame = run.frames()[n];
     const render::State state = run.at(frame.time);
     vtkNew<vtkImageData> image;
     fill_state(*image, state.frame, state.measures, state.scene);
-    membranes.add(n, frame.time, *polygons(*vtkNew<vtkMembraneSurface>(), *image, frame.file));
-    if (run.scene().has_phases())
-      boundaries.add(n, frame.time, *polygons(*vtkNew<vtkPhaseBoundary>(), *image, frame.file));
+    const auto vtp = [&](vtkPolyDataAlgorithm& filter) {
+      return vtp_of(*polygons(filter, *image, frame.file), frame.file);
+    };
+    membranes.add(n, frame.time, vtp(*vtkNew<vtkMembraneSurface>()));
+    if (has_phases) boundaries.add(n, frame.time, vtp(*vtkNew<vtkPhaseBoundary>()));
   }
-  say(membranes.end().string() + "\n");
-  if (run.scene().has_phases()) say(boundaries.end().string() + "\n");
-  return code;
+  for (const SurfaceCollection* written : {&membranes, &boundaries})
+    if (!is_free(written->file())) say(written->file().string() + "\n");
+}
+
+/// The folder for the surfaces, once nothing else is in the way. What an earlier export wrote goes.
+OutputFolder cleared(const ExportOptions& options, const std::vector<std::size_t>& frames,
+                     bool has_phases) {
+  const fs::path path =
+      options.output.empty() ? options.folder / run_names::surfaces : options.output;
+  if (options.output.empty()) Folder(options.folder).find(run_names::surfaces); // refuses a link
+  OutputFolder folder(path);
+  refuse_foreign(*folder, "membrane", frames);
+  if (has_phases) refuse_foreign(*folder, "boundary", frames);
+  erase_surfaces(*folder);
+  return folder;
+}
+
+} // namespace
+
+int export_surfaces(const ExportOptions& options) {
+  require_run(options.folder);
+  std::error_code ignored;
+  std::optional<Folder> held; // the output folder is held anyway
+  if (!fs::equivalent(options.folder, options.output, ignored)) held = hold_run(options.folder);
+  const render::StoredStates run(options.folder);
+  const std::vector<std::size_t> frames = frames_at(run, options.times);
+  const OutputFolder folder = cleared(options, frames, run.scene().has_phases());
+  try {
+    write_surfaces(run, frames, *folder);
+  } catch (...) {
+    erase_surfaces(*folder);
+    throw;
+  }
+  return interrupt_requested() ? interrupted : success;
 }
 
 } // namespace lamella

@@ -1,11 +1,11 @@
 #include "commands.h"
 
-#include "error.h"
 #include "exit_code.h"
 #include "extremes/laws.h"
 #include "extremes/random_scene.h"
 #include "extremes/report.h"
 #include "interrupt.h"
+#include "output_folder.h"
 #include "parallel.h"
 #include "progress.h"
 #include "scene/scene_toml.h"
@@ -16,8 +16,6 @@
 #include <fmt/format.h>
 
 namespace lamella {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -37,16 +35,8 @@ std::vector<ExtremeCase> chosen(const ExtremesOptions& options) {
   return cases;
 }
 
-void create(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw StoreError(
-        fmt::format("{}: cannot be used as output folder: {}", folder.string(), error.message()));
-}
-
 /// Runs all, and stores the table anew after each.
-std::vector<CaseResult> carry_out(std::span<const ExtremeCase> cases, const fs::path& folder) {
+std::vector<CaseResult> carry_out(std::span<const ExtremeCase> cases, const Folder& folder) {
   std::vector<CaseResult> results;
   say(extremes_head());
   for (const ExtremeCase& each : cases) {
@@ -54,21 +44,21 @@ std::vector<CaseResult> carry_out(std::span<const ExtremeCase> cases, const fs::
     if (interrupt_requested()) break;
     say(extremes_row(result));
     results.push_back(std::move(result));
-    write_text_atomically(folder / table_file, extremes_csv(results));
-    write_text_atomically(folder / page_file, extremes_markdown(results));
+    write_text_atomically(Place(folder, table_file), extremes_csv(results));
+    write_text_atomically(Place(folder, page_file), extremes_markdown(results));
   }
   return results;
 }
 
 /// Of a random scene: its table row, and the scene itself where it broke a law.
-std::string note_report(const LawReport& report, const fs::path& folder) {
+std::string note_report(const LawReport& report, const Folder& folder) {
   const Scene& scene = report.run.scene;
   if (!report.broken.empty())
-    write_text_atomically(folder / (scene.name + ".toml"), to_toml(scene));
+    write_text_atomically(Place(folder, scene.name + ".toml"), to_toml(scene));
   return law_row(report);
 }
 
-int check_random_scenes(const ExtremesOptions& options) {
+int check_random_scenes(const ExtremesOptions& options, const Folder& folder) {
   std::string table = law_columns();
   int wrong = 0, done = 0;
   const auto go_on = [] { return !interrupt_requested(); };
@@ -76,21 +66,21 @@ int check_random_scenes(const ExtremesOptions& options) {
     const LawReport report = check_laws(random_scene(std::uint64_t(options.seed), number), go_on);
     if (!go_on()) break;
     say(law_text(report));
-    table += note_report(report, options.folder);
-    write_text_atomically(options.folder / random_file, table);
+    table += note_report(report, folder);
+    write_text_atomically(Place(folder, random_file), table);
     wrong += !report.broken.empty();
     done++;
   }
   say(fmt::format("{} scene{}: {} broke a law\nIn {}: {}{}\n", done, done == 1 ? "" : "s", wrong,
-                  options.folder.string(), random_file,
+                  folder.path().string(), random_file,
                   wrong > 0 ? ", and the scenes that did" : ""));
   return interrupt_requested() ? interrupted : wrong > 0 ? unexpected : success;
 }
 
-int run_cases(const std::vector<ExtremeCase>& cases, const fs::path& folder) {
+int run_cases(const std::vector<ExtremeCase>& cases, const Folder& folder) {
   const std::vector<CaseResult> results = carry_out(cases, folder);
-  say(fmt::format("{}\nIn {}: {}, {}\n", count_of_verdicts(results), folder.string(), table_file,
-                  page_file));
+  say(fmt::format("{}\nIn {}: {}, {}\n", count_of_verdicts(results), folder.path().string(),
+                  table_file, page_file));
   if (interrupt_requested()) return interrupted;
   const bool wrong = std::ranges::count(results, Verdict::wrong, &CaseResult::verdict) > 0;
   return wrong ? unexpected : success;
@@ -101,10 +91,9 @@ int run_cases(const std::vector<ExtremeCase>& cases, const fs::path& folder) {
 int extremes(const ExtremesOptions& options) {
   const bool random = options.random > 0;
   const std::vector<ExtremeCase> cases = random ? std::vector<ExtremeCase>{} : chosen(options);
-  create(options.folder);
+  const OutputFolder folder(options.folder);
   set_thread_count(options.threads);
-  watch_for_interrupt();
-  return random ? check_random_scenes(options) : run_cases(cases, options.folder);
+  return random ? check_random_scenes(options, *folder) : run_cases(cases, *folder);
 }
 
 } // namespace lamella

@@ -5,6 +5,7 @@
 #include "figures/figure_page.h"
 #include "find_scene.h"
 #include "interrupt.h"
+#include "output_folder.h"
 #include "progress.h"
 #include "run_queue.h"
 #include "scene/nearest.h"
@@ -141,14 +142,14 @@ bool draw(const FigureSpec& figure, const FigureOptions& options, const RunFinde
 int figure(const FigureOptions& options) {
   if (options.name.empty()) {
     for (const BuiltinFigure& figure : builtin_figures())
-      fmt::print("{:<10} {}\n", figure.name, figure.title);
+      say(fmt::format("{:<10} {}\n", figure.name, figure.title));
     return success;
   }
   const std::vector<FigureSpec> figures = find_figures(options.name);
   Scenes scenes(options.set);
   const std::vector<Scene> needed = scenes_of(figures, scenes);
-  const RunStore store(options.folder / "runs");
-  watch_for_interrupt();
+  const OutputFolder folder(options.folder);
+  const RunStore store(folder->inner("runs"));
   const int cores =
       options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
   const std::vector<FailedRun> failed = run_all(needed, store, cores);

@@ -1,7 +1,8 @@
 #include "find_scene.h"
 
 #include "error.h"
-#include "run_folder.h"
+#include "regular_file.h"
+#include "run_contents.h"
 #include "scene/builtin.h"
 #include "scene/keys.h"
 #include "scene/nearest.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <optional>
 
 namespace lamella {
@@ -43,17 +43,18 @@ bool is_there(const fs::path& file) {
 
 [[noreturn]] void refuse_missing_file(const fs::path& file) {
   const std::string stem = file.stem().string();
+  if (!is_free(file))
+    throw SceneError(file.string() + ": a symbolic link to something that is not there");
   throw SceneError(fmt::format("{}: no such file{}", file.string(),
                                is_builtin(stem) ? "; the built-in scene is called " + stem : ""));
 }
 
 [[noreturn]] void refuse_word(const std::string& word) {
-  const std::vector<std::string_view> names = builtin_names();
   const std::string file = word + ".toml";
-  throw SceneError(fmt::format("\"{}\": neither a file nor a built-in scene; built in are {}{}",
-                               word, fmt::join(names, ", "),
-                               is_there(file) ? fmt::format("; did you mean \"{}\"?", file)
-                                              : suggestion(word, names)));
+  std::string hint = is_there(file) ? fmt::format("; did you mean \"{}\"?", file)
+                                    : suggestion(word, builtin_names());
+  if (hint.empty()) hint = "; `lamella scenes` lists those";
+  throw SceneError(fmt::format("\"{}\": neither a file nor a built-in scene{}", word, hint));
 }
 
 /// The scene as it is written.
@@ -66,7 +67,8 @@ Scene scene_of(const std::string& wanted, std::span<const std::string> overrides
     throw SceneError(wanted.substr(0, 60) + "...: too long for the name of a file");
   if (fs::is_directory(status)) refuse_folder(file);
   if (status.type() != fs::file_type::not_found) return read_scene(file, overrides);
-  if (file.has_parent_path() || file.extension() == ".toml") refuse_missing_file(file);
+  if (file.has_parent_path() || file.extension() == ".toml" || !is_free(file))
+    refuse_missing_file(file);
   refuse_word(wanted);
 }
 

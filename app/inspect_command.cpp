@@ -2,9 +2,13 @@
 
 #include "error.h"
 #include "exit_code.h"
+#include "interrupt.h"
 #include "progress.h"
-#include "run_folder.h"
+#include "regular_file.h"
+#include "run_contents.h"
 #include "scene/scene_toml.h"
+#include "shell_word.h"
+#include "store/history.h"
 #include "usage_error.h"
 
 #include <fmt/format.h>
@@ -86,7 +90,7 @@ std::string checkpoint_text(const fs::path& file, const Checkpoint& c) {
          row("scene hash", hash_of(c.scene)) + row("size", size_text(fs::file_size(file)));
 }
 
-std::string file_text(const fs::path& file) {
+std::string state_file_text(const fs::path& file) {
   if (is_checkpoint(file)) return checkpoint_text(file, read_checkpoint(file));
   return fmt::format("{}: a frame\n", file.string()) + frame_rows(file, read_frame(file));
 }
@@ -115,10 +119,11 @@ std::string state_text(const RunStatus& s) {
 }
 
 std::string folder_text(const fs::path& folder) {
-  if (!can_be_resumed(folder))
-    throw UsageError(folder.string() + ": neither a run nor a frame is there");
+  if (!holds_run(folder))
+    throw UsageError(folder.string() + ": holds no run; name the folder of a run, or a file of it");
   const Scene scene = read_scene(folder / "scene.toml");
-  const RunStatus status = status_of_run(folder);
+  const RunStatus status = status_of_run(
+      folder, [](const std::string& why) { fmt::print(stderr, "lamella: warning: {}\n", why); });
   std::string text = fmt::format("{}: a run\n", folder.string()) + scene_rows(scene);
   text += row("state", state_text(status));
   if (!status.origin.empty()) text += row("branch of", status.origin);
@@ -137,14 +142,16 @@ std::string folder_text(const fs::path& folder) {
   text += files_row("checkpoints", checkpoints);
   const bool is_open =
       status.state == RunStatus::State::running || status.state == RunStatus::State::interrupted;
-  return is_open ? text + row("go on with", "lamella run --resume " + folder.string()) : text;
+  return is_open ? text + row("go on with", "lamella run --resume " + shell_word(folder)) : text;
 }
 
 } // namespace
 
 int inspect(const fs::path& what) {
-  if (!fs::exists(what)) throw UsageError(what.string() + ": no such file or folder");
-  say(fs::is_directory(what) ? folder_text(what) : file_text(what));
+  end_at_interrupt();
+  if (is_free(what)) throw UsageError(what.string() + ": no such file or folder");
+  std::error_code ignored;
+  say(fs::is_directory(what, ignored) ? folder_text(what) : state_file_text(what));
   return success;
 }
 

@@ -1,15 +1,19 @@
 // lamella: dynamics of lipid vesicles on the command line.
+#include "cancellation.h"
 #include "command_line.h"
 #include "error.h"
 #include "exit_code.h"
+#include "interrupt.h"
+#include "progress.h"
 #include "render/render.h"
 #include "usage_error.h"
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
 #include <new>
 #include <string>
 #include <unistd.h>
@@ -37,6 +41,10 @@ int obey(int argc, char** argv) {
     return complain(cannot_store, e.what());
   } catch (const RenderError& e) {
     return complain(no_pictures, e.what());
+  } catch (const Cancelled&) {
+    return complain(interrupted, "interrupted");
+  } catch (const std::filesystem::filesystem_error& e) {
+    return complain(cannot_store, fmt::format("{}: {}", e.path1().string(), e.code().message()));
   } catch (const std::bad_alloc&) {
     return complain(run_stopped, "not enough memory");
   } catch (const std::exception& e) {
@@ -56,10 +64,10 @@ void open_standard_streams() {
 } // namespace
 
 int main(int argc, char** argv) {
+  watch_for_interrupt(); // before all else: nothing may be cut short without a word
   open_standard_streams();
-  std::signal(SIGXFSZ, SIG_IGN); // a file beyond the allowed size is an error like a full disk
-  const int code = obey(argc, argv);
-  if (std::fflush(stdout) != 0 && errno != EPIPE && code == success)
-    return complain(cannot_store, std::string("standard output: ") + std::strerror(errno));
+  const int code = obey(argc, argv), unsaid = why_unsaid();
+  if (unsaid != 0 && unsaid != EPIPE && code == success)
+    return complain(cannot_store, fmt::format("standard output: {}", std::strerror(unsaid)));
   return code;
 }

@@ -3,10 +3,11 @@
 #include "error.h"
 #include "exit_code.h"
 #include "interrupt.h"
+#include "output_folder.h"
 #include "progress.h"
 #include "render/qt_session.h"
 #include "render/still.h"
-#include "run_folder.h"
+#include "run_contents.h"
 #include "usage_error.h"
 
 #include <QProcess>
@@ -195,7 +196,7 @@ void check(const MovieOptions& options) {
 int movie(const MovieOptions& options) {
   check(options);
   require_run(options.folder);
-  watch_for_interrupt();
+  const Folder held = hold_run(options.folder);
   render::Studio studio(options.backend);
   render::begin_qt();
   const render::StoredStates run(options.folder);

@@ -1,6 +1,7 @@
 #include "progress.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -13,6 +14,8 @@ namespace lamella {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+int unsaid = 0; // see why_unsaid()
 
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
@@ -88,8 +91,10 @@ void Progress::clear() {
 
 void say(const std::string& text) {
   std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0 && unsaid == 0) unsaid = errno;
 }
+
+int why_unsaid() { return unsaid; }
 
 std::string duration_text(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);

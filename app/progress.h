@@ -40,6 +40,8 @@ private:
 /// To standard output. Neither a full disk nor a reader that went away may end a run, so nothing is
 /// thrown.
 void say(const std::string& text);
+/// The errno of the first time that something could not be said; 0: all was.
+int why_unsaid();
 
 /// "3.2 s", "4 min 10 s", "2 h 5 min".
 std::string duration_text(double seconds);

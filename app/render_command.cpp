@@ -1,7 +1,10 @@
 #include "commands.h"
 
 #include "exit_code.h"
-#include "run_folder.h"
+#include "interrupt.h"
+#include "output_folder.h"
+#include "progress.h"
+#include "run_contents.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +16,10 @@ std::vector<std::filesystem::path> draw_pictures(const RenderCommandOptions& opt
 }
 
 int redraw(const RenderCommandOptions& options) {
+  end_at_interrupt();
   require_run(options.folder);
-  for (const auto& file : draw_pictures(options)) fmt::print("{}\n", file.string());
+  const Folder held = hold_run(options.folder);
+  for (const auto& file : draw_pictures(options)) say(fmt::format("{}\n", file.string()));
   return success;
 }
 

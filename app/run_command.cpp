@@ -1,14 +1,18 @@
 #include "commands.h"
 
+#include "cancellation.h"
 #include "error.h"
 #include "find_scene.h"
 #include "interrupt.h"
+#include "output_folder.h"
 #include "parallel.h"
 #include "progress.h"
 #include "resume.h"
+#include "run_contents.h"
 #include "run_folder.h"
 #include "scene/preset.h"
 #include "scene/scene_toml.h"
+#include "shell_word.h"
 #include "start_frame.h"
 #include "summary.h"
 #include "time_loop.h"
@@ -159,7 +163,7 @@ void Run::report(const Outcome& outcome) const {
   if (course_.end().phases) say(phases_result(*course_.start().phases, *course_.end().phases));
   if (outcome.code == resumable)
     remark(fmt::format("the run {}; `lamella run --resume {}` goes on", words,
-                       folder_.path().string()));
+                       shell_word(folder_.path())));
   else if (outcome.code != success)
     remark(fmt::format("the run {}; stored up to there", words));
   if (!warning.empty()) remark("warning: " + warning);
@@ -194,7 +198,7 @@ int Run::carry_out(Beginning beginning) {
   } catch (const StoreError& e) {
     throw StoreError(fmt::format("{}; the run stopped at t = {:.6g}, what was stored before is "
                                  "whole, and `lamella run --resume {}` goes on from there",
-                                 e.what(), sim_.time(), folder_.path().string()));
+                                 e.what(), sim_.time(), shell_word(folder_.path())));
   }
   const int pictures = options_.no_pictures ? success : draw(folder_, options_);
   say(contents(folder_, !options_.no_pictures && pictures == success));
@@ -212,26 +216,34 @@ Scene wanted_scene(const RunOptions& options, const std::string& stored = {}) {
   return scene;
 }
 
-int run_from_start(const RunOptions& options) {
-  Scene scene = wanted_scene(options);
-  const fs::path path = options.folder.empty() ? fs::path(scene.name) : options.folder;
-  refuse_unsuitable(path, options.force);
+int give_up() {
+  remark("interrupted before the run began; nothing was written");
+  return interrupted;
+}
+
+/// In a folder that may not be one for runs.
+int run_from_start(const RunOptions& options, Scene scene, OutputFolder output) {
+  refuse_unsuitable(*output, options.force);
   const std::string origin =
       scene.shape.kind == ShapeKind::frame ? fmt::format("from {} ", scene.shape.file) : "";
   const StartFrame start_frame(scene);
   Simulation sim = start(scene);
-  if (interrupt_requested()) {
-    remark("interrupted before the run began; nothing was written");
-    return interrupted;
-  }
-  RunFolder folder(path, scene, sim);
+  if (interrupt_requested()) return give_up();
+  RunFolder folder(std::move(output), options.force, scene, sim);
   say(opening(scene, origin));
   Run run(options, scene, sim, folder, Course(sim.measures()), {});
   return run.carry_out(Run::Beginning::scene);
 }
 
+int run_new(const RunOptions& options) {
+  Scene scene = wanted_scene(options);
+  OutputFolder output(options.folder.empty() ? fs::path(scene.name) : options.folder);
+  return run_from_start(options, std::move(scene), std::move(output));
+}
+
 /// The simulation at a checkpoint, or at its start where there is none. Throws SceneError.
 std::unique_ptr<Simulation> simulation_at(const Scene& scene, const Checkpoint* checkpoint) {
+  const Cancellation when(interrupt_requested);
   try {
     if (checkpoint) return std::make_unique<Simulation>(scene, checkpoint->state);
     return std::make_unique<Simulation>(scene);
@@ -258,24 +270,25 @@ void warn_of_other_arithmetic(const Checkpoint& checkpoint) {
 }
 
 int resume_in_place(const RunOptions& options, const Scene& scene,
-                    const std::optional<Checkpoint>& checkpoint) {
+                    const std::optional<Checkpoint>& checkpoint, const std::string& branch_of,
+                    OutputFolder output) {
   const Checkpoint* from = checkpoint ? &*checkpoint : nullptr;
   const std::unique_ptr<Simulation> sim = simulation_at(scene, from);
-  RunFolder folder(options.resume, *sim, from);
+  RunFolder folder(std::move(output), *sim, from);
   Course course = from ? course_until(options.resume, sim->time()) : Course(sim->measures());
   say(opening(scene, from ? fmt::format("resumed at t = {:.6g}, ", sim->time())
                           : "resumed at its start, "));
   Resumed resumed;
   if (from) resumed = {from->stopping, from->wall_seconds};
-  Run run(options, scene, *sim, folder, std::move(course), resumed,
-          status_of_run(options.resume).origin);
+  Run run(options, scene, *sim, folder, std::move(course), resumed, branch_of);
   return run.carry_out(from ? Run::Beginning::checkpoint : Run::Beginning::scene);
 }
 
 int branch_off(const RunOptions& options, const Scene& scene, const Checkpoint& checkpoint,
                const Scene& stored, const std::vector<const Key*>& changed) {
   refuse_unbranchable(changed, stored, scene);
-  refuse_unsuitable(options.folder, options.force);
+  OutputFolder output(options.folder);
+  refuse_unsuitable(*output, options.force);
   Checkpoint from = checkpoint;
   from.state = branched(std::move(from.state), changed);
   const std::unique_ptr<Simulation> sim = simulation_at(scene, &from);
@@ -283,8 +296,8 @@ int branch_off(const RunOptions& options, const Scene& scene, const Checkpoint& 
     throw UsageError(fmt::format("the state is at t = {:.6g} already; set run.end_time beyond it, "
                                  "as in --set run.end_time={:g}",
                                  sim->time(), 2 * sim->time()));
-  RunFolder folder(options.folder, scene, *sim);
   const std::string origin = fmt::format("{}, t = {:.6g}", options.resume.string(), sim->time());
+  RunFolder folder(std::move(output), options.force, scene, *sim, origin);
   say(opening(scene, fmt::format("from {} ", origin)));
   Run run(options, scene, *sim, folder, Course(sim->measures()), {from.stopping, 0}, origin);
   return run.carry_out(Run::Beginning::branch);
@@ -305,50 +318,108 @@ int branch_off_file(const RunOptions& options) {
   return branch_off(options, scene, checkpoint, stored, differences(stored, scene));
 }
 
+/// How to do without what is stored.
+std::string advice(const fs::path& run) {
+  return fmt::format("put back what was there, or begin again with `lamella run {} -o {} --force`",
+                     shell_word(run / "scene.toml"), shell_word(run));
+}
+
+/// Of the run in a folder. Throws StoreError where it is damaged so that it cannot go on.
+std::optional<Checkpoint> newest_checkpoint(const fs::path& path) {
+  Resumption found = find_checkpoint(path);
+  if (!found.checkpoint && !found.damage.empty())
+    throw StoreError(fmt::format("{}; there is no older checkpoint to go on from; {}",
+                                 found.damage.front(), advice(path)));
+  for (const std::string& why : found.damage)
+    remark(fmt::format("warning: {}; falling back to the state before", why));
+  return std::move(found.checkpoint);
+}
+
+/// The scene that the options ask for, and what it changes in that of a run.
+struct Wanted {
+  Scene scene, stored;
+  std::vector<const Key*> changed;
+};
+
+Wanted wanted_of(const RunOptions& options, const std::optional<Checkpoint>& checkpoint) {
+  const std::string place = (options.resume / "scene.toml").string();
+  Wanted wanted{wanted_scene(options, place),
+                checkpoint ? parse_scene(checkpoint->scene, place) : read_scene(place),
+                {}};
+  wanted.changed = differences(wanted.stored, wanted.scene);
+  return wanted;
+}
+
+int branch_off_run(const RunOptions& options) {
+  const std::optional<Checkpoint> checkpoint = newest_checkpoint(options.resume);
+  const Wanted wanted = wanted_of(options, checkpoint);
+  if (!checkpoint)
+    throw UsageError(options.resume.string() + ": there is no checkpoint to branch from");
+  return branch_off(options, wanted.scene, *checkpoint, wanted.stored, wanted.changed);
+}
+
+/// Says so.
+int leave_finished(const fs::path& path, const RunStatus& status) {
+  try {
+    check_stored_files(path);
+  } catch (const StoreError& e) {
+    throw StoreError(fmt::format("{}; the run has {}, and all else is kept; {}", e.what(),
+                                 to_string(status.state), advice(path)));
+  }
+  say(fmt::format("{}: the run has {} at t = {:.6g}; nothing is left to do\n", path.string(),
+                  to_string(status.state), status.time));
+  return status.state == RunStatus::State::finished ? success : run_stopped;
+}
+
+int go_on(const RunOptions& options, OutputFolder output) {
+  const fs::path& path = options.resume;
+  erase_unfinished(*output);
+  const RunStatus status =
+      status_of_run(path, [](const std::string& why) { remark("warning: " + why); });
+  const std::optional<Checkpoint> checkpoint = newest_checkpoint(path);
+  const Wanted wanted = wanted_of(options, checkpoint);
+  if (!wanted.changed.empty())
+    throw UsageError(fmt::format(
+        "{}: the scene is not that of the run: {}; --branch with -o starts another run from its "
+        "state",
+        path.string(), difference_text(wanted.changed, wanted.stored, wanted.scene)));
+  if (status.state == RunStatus::State::finished || status.state == RunStatus::State::stopped)
+    return leave_finished(path, status);
+  if (!checkpoint && !status.origin.empty())
+    throw UsageError(fmt::format("{}: this branch of {} has no checkpoint yet, and its scene alone "
+                                 "does not lead to its state; start it again with --branch and "
+                                 "--force",
+                                 path.string(), status.origin));
+  if (checkpoint) warn_of_other_arithmetic(*checkpoint);
+  return resume_in_place(options, wanted.scene, checkpoint, status.origin, std::move(output));
+}
+
 int resume(const RunOptions& options) {
   const fs::path& path = options.resume;
-  if (fs::is_regular_file(path)) return branch_off_file(options);
-  if (!can_be_resumed(path)) {
-    if (options.scene.empty())
-      throw UsageError(path.string() + ": there is no run to resume; with a scene, as in `lamella "
-                                       "run SCENE --resume FOLDER`, one is started");
-    if (fs::is_directory(path)) remove_unfinished_files(path);
-    RunOptions anew = options;
-    anew.folder = path;
-    return run_from_start(anew);
-  }
-  const Scene scene = wanted_scene(options, (path / "scene.toml").string());
-  const std::optional<Checkpoint> checkpoint = newest_checkpoint(path, [](const std::string& why) {
-    remark(fmt::format("warning: {}; falling back to the state before", why));
-  });
-  const std::string place = (path / "scene.toml").string();
-  const Scene stored = checkpoint ? parse_scene(checkpoint->scene, place) : read_scene(place);
-  const std::vector<const Key*> changed = differences(stored, scene);
-  if (options.branch) {
-    if (!checkpoint) throw UsageError(path.string() + ": there is no checkpoint to branch from");
-    return branch_off(options, scene, *checkpoint, stored, changed);
-  }
-  if (!changed.empty())
-    throw UsageError(
-        fmt::format("{}: the scene is not that of the run: {}; --branch with -o starts "
-                    "another run from its state",
-                    path.string(), difference_text(changed, stored, scene)));
-  const RunStatus status = status_of_run(path);
-  if (status.state == RunStatus::State::finished || status.state == RunStatus::State::stopped) {
-    say(fmt::format("{}: the run has {} at t = {:.6g}; nothing is left to do\n", path.string(),
-                    to_string(status.state), status.time));
-    return status.state == RunStatus::State::finished ? success : run_stopped;
-  }
-  if (checkpoint) warn_of_other_arithmetic(*checkpoint);
-  return resume_in_place(options, scene, checkpoint);
+  std::error_code ignored;
+  if (fs::is_regular_file(path, ignored)) return branch_off_file(options);
+  const bool is_run = holds_run(path);
+  if (!is_run && (options.scene.empty() || options.branch))
+    throw UsageError(path.string() + ": there is no run to resume; with a scene, as in `lamella "
+                                     "run SCENE --resume FOLDER`, one is started");
+  if (is_run && options.branch) return branch_off_run(options);
+  OutputFolder output(path);
+  if (holds_run(path)) return go_on(options, std::move(output)); // as nobody else changes it now
+  return run_from_start(options, wanted_scene(options), std::move(output));
 }
 
 } // namespace
 
 int run(const RunOptions& options) {
   set_thread_count(options.threads);
-  watch_for_interrupt();
-  return options.resume.empty() ? run_from_start(options) : resume(options);
+  try {
+    return options.resume.empty() ? run_new(options) : resume(options);
+  } catch (const Cancelled&) {
+    if (options.resume.empty() || options.branch || !holds_run(options.resume)) return give_up();
+    remark(fmt::format("interrupted before the run went on; `lamella run --resume {}` does",
+                       shell_word(options.resume)));
+    return resumable;
+  }
 }
 
 } // namespace lamella

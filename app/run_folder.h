@@ -1,4 +1,5 @@
 #pragma once
+#include "output_folder.h"
 #include "scene/scene.h"
 #include "store/background.h"
 #include "store/checkpoint.h"
@@ -7,31 +8,12 @@
 #include "store/run_status.h"
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace lamella {
-
-/// Throws UsageError for a folder that may not receive a run: one that is not empty, and with
-/// `force` one that holds something else than an earlier run. Throws StoreError for what is no
-/// folder.
-void refuse_unsuitable(const std::filesystem::path& folder, bool force);
-
-/// Keeps other processes from writing to a run; ends with the process at the latest.
-class FolderLock {
-public:
-  /// Throws UsageError where another process has it.
-  explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
-private:
-  int descriptor_;
-};
 
 /// What a run leaves behind, and how it is laid out:
 ///   scene.toml              the scene as run, complete
@@ -46,14 +28,15 @@ private:
 ///   surfaces/               the membrane of each frame, where it was exported
 class RunFolder {
 public:
-  /// Creates the folder, or removes what an earlier run left there and nothing else. The history
-  /// has the columns of `start`. Throws StoreError, and UsageError for a folder that another
-  /// process writes to.
-  RunFolder(const std::filesystem::path& folder, const Scene& scene, const Simulation& start);
+  /// A new run in a folder that may receive one, see refuse_unsuitable(); an earlier one is removed
+  /// with `force`, and nothing else. The history has the columns of `start`. `origin`: of a branch.
+  /// Throws UsageError, StoreError.
+  RunFolder(OutputFolder folder, bool force, const Scene& scene, const Simulation& start,
+            const std::string& origin = {});
 
   /// Goes on with the run that is there: from a checkpoint of it, or with null from its start. What
-  /// came later is removed, as is what a killed program left behind.
-  RunFolder(const std::filesystem::path& folder, const Simulation& now, const Checkpoint* from);
+  /// came later is removed, as is what a killed program left behind. Throws StoreError.
+  RunFolder(OutputFolder folder, const Simulation& now, const Checkpoint* from);
 
   void add(const Measures& measures) { history_->add(measures); }
   /// Writes it while the caller goes on. What fails is thrown by the next call that stores a frame,
@@ -69,11 +52,9 @@ public:
   /// The hash of the scene is filled in.
   void write(RunStatus status);
 
-  const std::filesystem::path& path() const { return folder_; }
+  const std::filesystem::path& path() const { return folder_->path(); }
   int frames() const { return int(series_.size()); }
   double last_frame_time() const { return series_.empty() ? -1 : series_.back().time; }
-  /// scene.toml as it is there.
-  std::string scene_text() const;
 
 private:
   template <class Write>
@@ -81,46 +62,14 @@ private:
   void note_in(Checkpoint& checkpoint) const;
   void open_tables(const Simulation& now, const Checkpoint* from);
 
-  std::filesystem::path folder_;
-  std::optional<FolderLock> lock_;
+  OutputFolder folder_;
+  std::optional<Folder> frames_;
+  std::string scene_text_; ///< scene.toml as the run has it
   std::optional<HistoryWriter> history_;
   std::optional<EventWriter> events_;
   std::size_t event_count_ = 0;
   std::vector<SeriesEntry> series_;
   Background writing_; // the last member: all else is there until it is done
 };
-
-/// The last frame of a run that has ended, also early; nothing for any other folder. Throws
-/// StoreError for one that cannot be read.
-std::optional<std::filesystem::path> end_of_run(const std::filesystem::path& folder);
-
-/// Where the surfaces of a run go that are asked for later; they are replaced with it.
-std::filesystem::path surfaces_folder(const std::filesystem::path& run);
-
-/// Makes a folder for surfaces and removes those of an earlier export. Throws StoreError.
-void clear_surfaces(const std::filesystem::path& folder);
-
-/// Throws UsageError for a folder that holds no run.
-void require_run(const std::filesystem::path& folder);
-
-/// Whether there is a run that can be resumed, perhaps only from its start. Throws StoreError.
-bool can_be_resumed(const std::filesystem::path& folder);
-
-/// Removes what a program that was killed was about to write; a folder that then is empty may
-/// receive a run. Throws StoreError.
-void remove_unfinished_files(const std::filesystem::path& folder);
-
-/// The newest checkpoint that the run in a folder can go on from. `complain` is told about those
-/// that are damaged or do not fit what else is stored.
-std::optional<Checkpoint>
-newest_checkpoint(const std::filesystem::path& folder,
-                  const std::function<void(const std::string&)>& complain);
-
-/// The frames and the checkpoints of a run, the oldest first. Throws StoreError.
-std::vector<std::filesystem::path> stored_frames(const std::filesystem::path& folder);
-std::vector<std::filesystem::path> stored_checkpoints(const std::filesystem::path& folder);
-
-/// As status.toml says; of a run that has none, that it is running. Throws StoreError.
-RunStatus status_of_run(const std::filesystem::path& folder);
 
 } // namespace lamella

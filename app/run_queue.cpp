@@ -4,7 +4,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "render/qt_session.h"
-#include "run_folder.h"
+#include "run_contents.h"
 
 #include <QCoreApplication>
 #include <QEventLoop>
@@ -129,7 +129,7 @@ private:
     job->process->setStandardOutputFile(QProcess::nullDevice());
     QStringList arguments{"run"};
     const QString folder = QString::fromStdString(job->order.folder.string());
-    if (can_be_resumed(job->order.folder)) // an earlier command was interrupted
+    if (holds_run(job->order.folder)) // an earlier command was interrupted
       arguments << "--resume" << folder;
     else
       arguments << QString::fromStdString(job->order.scene.string()) << "-o" << folder << "--force";

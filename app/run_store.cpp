@@ -1,6 +1,6 @@
 #include "run_store.h"
 
-#include "error.h"
+#include "regular_file.h"
 #include "scene/scene_toml.h"
 #include "store/atomic_file.h"
 #include "version.h"
@@ -8,8 +8,6 @@
 #include <QCryptographicHash>
 
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 namespace lamella {
 
@@ -18,11 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Nothing for what is not a file, such as the name of a built-in scene.
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return file.is_absolute() ? std::string{std::istreambuf_iterator<char>(stream), {}}
-                            : std::string();
-}
+std::string content(const fs::path& file) { return file.is_absolute() ? file_text(file) : ""; }
 
 std::string key_of(const Scene& scene) {
   QCryptographicHash hash(QCryptographicHash::Sha256);
@@ -35,7 +29,7 @@ std::string key_of(const Scene& scene) {
 } // namespace
 
 fs::path RunStore::place(const Scene& scene) const {
-  return folder_ / fmt::format("{}-{}", scene.name, key_of(scene));
+  return folder_.path() / fmt::format("{}-{}", scene.name, key_of(scene));
 }
 
 bool RunStore::has(const Scene& scene) const {
@@ -44,23 +38,16 @@ bool RunStore::has(const Scene& scene) const {
 }
 
 RunStore::Order RunStore::begin(const Scene& scene) const {
-  const fs::path place = this->place(scene);
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error)
-    throw StoreError(
-        fmt::format("{}: cannot be used as a folder: {}", folder_.string(), error.message()));
-  const Order order{place.string() + ".toml", place.string() + ".part"};
-  write_text_atomically(order.scene, to_toml(scene));
-  return order;
+  const std::string name = place(scene).filename();
+  folder_.find(name + ".part"); // refuses a link
+  write_text_atomically(Place(folder_, name + ".toml"), to_toml(scene));
+  return {folder_.path() / (name + ".toml"), folder_.path() / (name + ".part")};
 }
 
 void RunStore::finish(const Scene& scene) const {
-  const fs::path place = this->place(scene);
-  std::error_code error;
-  fs::rename(place.string() + ".part", place, error);
-  if (error) throw StoreError(fmt::format("{}: {}", place.string(), error.message()));
-  fs::remove(place.string() + ".toml", error);
+  const std::string name = place(scene).filename();
+  folder_.rename(name + ".part", name);
+  folder_.remove(name + ".toml");
 }
 
 } // namespace lamella

@@ -1,5 +1,6 @@
 #pragma once
 #include "scene/scene.h"
+#include "store/folder.h"
 
 #include <filesystem>
 
@@ -10,7 +11,7 @@ namespace lamella {
 /// name holds a run that has come to its end; one on its way has another name.
 class RunStore {
 public:
-  explicit RunStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit RunStore(Folder folder) : folder_(std::move(folder)) {}
 
   std::filesystem::path place(const Scene& scene) const;
   bool has(const Scene& scene) const;
@@ -19,13 +20,13 @@ public:
   struct Order {
     std::filesystem::path scene, folder;
   };
-  /// Throws StoreError.
+  /// Throws StoreError, also for a link in place of the folder.
   Order begin(const Scene& scene) const;
   /// The run of that order has come to its end. Throws StoreError.
   void finish(const Scene& scene) const;
 
 private:
-  std::filesystem::path folder_;
+  Folder folder_;
 };
 
 } // namespace lamella

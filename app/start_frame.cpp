@@ -7,7 +7,10 @@
 #include "time_loop.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
 
 namespace lamella {
 
@@ -26,9 +29,13 @@ Frame end_of(Scene scene) {
   return sim.frame();
 }
 
-fs::path temporary_file() {
-  std::error_code ignored;
-  return fs::temp_directory_path(ignored) / fmt::format("lamella-start-{}.hdf", getpid());
+/// A new folder for temporary files.
+fs::path temporary_folder() {
+  std::string name = (fs::temp_directory_path() / "lamella-start-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw StoreError(
+        fmt::format("{}: cannot be created: {}", name, std::generic_category().message(errno)));
+  return name;
 }
 
 } // namespace
@@ -44,14 +51,14 @@ StartFrame::StartFrame(Scene& scene) {
   say(fmt::format("{} starts where {} ends, which runs first and is not stored\n", scene.name,
                   earlier.name));
   const Frame frame = end_of(earlier);
-  temporary_ = temporary_file();
-  write_frame(temporary_, frame);
-  scene.shape.file = temporary_.string();
+  temporary_ = temporary_folder();
+  scene.shape.file = temporary_ / "start.hdf";
+  write_frame(scene.shape.file, frame);
 }
 
 StartFrame::~StartFrame() {
   std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
 }
 
 } // namespace lamella

@@ -19,7 +19,7 @@ public:
   StartFrame& operator=(const StartFrame&) = delete;
 
 private:
-  std::filesystem::path temporary_; ///< empty: none
+  std::filesystem::path temporary_; ///< a folder; empty: none
 };
 
 } // namespace lamella

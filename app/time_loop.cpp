@@ -1,5 +1,6 @@
 #include "time_loop.h"
 
+#include "cancellation.h"
 #include "error.h"
 #include "interrupt.h"
 #include "progress.h"
@@ -16,6 +17,7 @@ constexpr double rounding = 1e-12; // of times, relative
 } // namespace
 
 Simulation start(const Scene& scene) {
+  const Cancellation when(interrupt_requested);
   try {
     return Simulation(scene);
   } catch (const RunError& e) {

@@ -10,7 +10,8 @@
 
 namespace lamella {
 
-/// The simulation of a scene at its start. Throws SceneError where it cannot start.
+/// The simulation of a scene at its start. Throws SceneError where it cannot start, and Cancelled
+/// where an interrupt is requested meanwhile.
 Simulation start(const Scene& scene);
 
 /// What a run brings along that it takes up again.

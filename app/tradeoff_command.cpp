@@ -1,9 +1,11 @@
 #include "commands.h"
 
+#include "cancellation.h"
 #include "error.h"
 #include "exit_code.h"
 #include "find_scene.h"
 #include "interrupt.h"
+#include "output_folder.h"
 #include "parallel.h"
 #include "progress.h"
 #include "render/run_pictures.h"
@@ -30,6 +32,7 @@ constexpr const char *table_file = "tradeoff.csv", *page_file = "tradeoff.md",
 /// scene, that one runs before and does not count.
 Trial fastest(Scene scene, int repeats, SweepProgress& progress) {
   Trial best;
+  const Cancellation when(interrupt_requested);
   try {
     const StartFrame start_frame(scene);
     for (int n = 0; n < repeats && !interrupt_requested(); ++n) {
@@ -44,6 +47,7 @@ Trial fastest(Scene scene, int repeats, SweepProgress& progress) {
   } catch (const SceneError& e) {
     best.scene = scene;
     best.stopped = e.what();
+  } catch (const Cancelled&) { // the caller asks why
   }
   return best;
 }
@@ -72,18 +76,17 @@ std::optional<Reference> known_reference(const fs::path& given, const Scene& sce
   return reference;
 }
 
-void refuse_unsuitable(const fs::path& folder, bool force) {
-  std::error_code error;
-  for (const char* file : {table_file, page_file, plot_file})
-    if (!force && fs::exists(folder / file, error))
+/// Throws UsageError for a folder with an earlier sweep, and StoreError where a file that is none
+/// has the name of one of its files.
+void refuse_unsuitable(const Folder& folder, bool force) {
+  for (const char* file : {table_file, page_file, plot_file}) {
+    Place(folder, file).refuse_other_kinds();
+    if (!force && folder.type_of(file) != fs::file_type::not_found)
       throw UsageError(
           fmt::format("{}: the folder holds a sweep; choose another with -o, or replace "
                       "it with --force",
-                      folder.string()));
-  fs::create_directories(folder, error);
-  if (error)
-    throw StoreError(
-        fmt::format("{}: cannot be used as output folder: {}", folder.string(), error.message()));
+                      folder.path().string()));
+  }
 }
 
 int draw(std::span<const Trial> trials, const fs::path& folder) {
@@ -103,7 +106,7 @@ int draw(std::span<const Trial> trials, const fs::path& folder) {
 
 /// Runs all, compares each and stores the table anew.
 std::vector<Trial> carry_out(const Scene& scene, std::span<const Scene> scenes,
-                             const Reference& reference, const fs::path& folder, int repeats) {
+                             const Reference& reference, const Folder& folder, int repeats) {
   std::vector<Trial> trials;
   SweepProgress progress(scenes, repeats);
   say(table_head());
@@ -115,7 +118,7 @@ std::vector<Trial> carry_out(const Scene& scene, std::span<const Scene> scenes,
     say(table_row(trial));
     trials.push_back(std::move(trial));
     mark_front(trials);
-    write_text_atomically(folder / table_file, tradeoff_csv(trials));
+    write_text_atomically(Place(folder, table_file), tradeoff_csv(trials));
   }
   return trials;
 }
@@ -124,23 +127,23 @@ std::vector<Trial> carry_out(const Scene& scene, std::span<const Scene> scenes,
 
 int tradeoff(const TradeoffOptions& options) {
   const Scene scene = find_scene(options.scene, options.set);
-  const fs::path folder =
+  const fs::path path =
       options.folder.empty() ? fs::path(scene.name + "-tradeoff") : options.folder;
   const std::vector<Scene> scenes = sweep(scene, options.range);
   std::optional<Reference> reference = known_reference(options.reference, scene);
-  refuse_unsuitable(folder, options.force);
+  const OutputFolder own(path);
+  refuse_unsuitable(*own, options.force);
   set_thread_count(options.threads);
-  watch_for_interrupt();
   if (!reference) reference = finest_run(scenes);
   say(fmt::format("{} to t = {:g}, compared with {}\n", scene.name, scene.end(),
                   reference->source()));
 
-  const std::vector<Trial> trials = carry_out(scene, scenes, *reference, folder, options.repeats);
+  const std::vector<Trial> trials = carry_out(scene, scenes, *reference, *own, options.repeats);
   if (trials.empty()) return interrupted;
-  write_text_atomically(folder / page_file,
+  write_text_atomically(Place(*own, page_file),
                         tradeoff_markdown(scene, *reference, trials, options.repeats));
-  const int pictures = draw(trials, folder);
-  say(fmt::format("In {}: {}, {}{}\n", folder.string(), table_file, page_file,
+  const int pictures = draw(trials, path);
+  say(fmt::format("In {}: {}, {}{}\n", path.string(), table_file, page_file,
                   pictures == success ? fmt::format(", {}", plot_file) : ""));
   return interrupt_requested() ? interrupted : pictures;
 }

@@ -1,6 +1,7 @@
 #include "tradeoff/reference.h"
 
 #include "error.h"
+#include "regular_file.h"
 #include "scene/builtin.h"
 #include "tradeoff/builtin_references.h"
 
@@ -10,8 +11,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace lamella {
@@ -140,10 +139,7 @@ ReferenceState Reference::at(double time) const {
 }
 
 Reference read_reference(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw StoreError(fmt::format("{}: cannot be read", file.string()));
-  return {text, file.string()};
+  return {file_text(file), file.string()};
 }
 
 std::optional<Reference> builtin_reference(const Scene& scene) {

@@ -1,15 +1,13 @@
 #include "scene/document.h"
 
 #include "error.h"
+#include "regular_file.h"
 #include "scene/nearest.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 
 namespace lamella {
 namespace {
@@ -132,18 +130,11 @@ std::string shortened(std::string_view text) {
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    refuse_scene(file.string() + ": this is a folder; allowed: a scene file (.toml)");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(largest_text + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream && !stream.eof())
-    refuse_scene(fmt::format("{}: cannot be read: {}", file.string(),
-                             std::generic_category().message(errno)));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
+  try {
+    return file_text(file, largest_text + 1);
+  } catch (const StoreError& e) {
+    refuse_scene(e.what());
+  }
 }
 
 toml::table parse_toml(std::string_view text, const std::string& source) {

@@ -16,7 +16,7 @@
 namespace lamella {
 namespace {
 
-constexpr int format = 2;
+constexpr int format = 3;
 constexpr const char* group_name = "checkpoint"; // in "lamella", which every frame has
 constexpr std::size_t most_responses = 2;
 
@@ -169,8 +169,10 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"arithmetic", &c.arithmetic},
               {"threads", number(c.threads)},
               {"wall_seconds", number(c.wall_seconds)},
-              {"history_size", number(c.history_size)},
-              {"events_size", number(c.events_size)},
+              {"history_size", number(c.history.size)},
+              {"history_checksum", number(c.history.checksum)},
+              {"events_size", number(c.events.size)},
+              {"events_checksum", number(c.events.checksum)},
               {"frame_times", &c.frame_times},
               {"stopping/energy_before", number(c.stopping.energy_before)},
               {"stopping/steps_at_rest", number(c.stopping.steps_at_rest)},
@@ -384,10 +386,14 @@ void expect_responses(const H5Image& image, hid_t group, SemiImplicit::Memory& m
 
 void write_checkpoint(const std::filesystem::path& file, const Frame& frame,
                       Checkpoint checkpoint) {
-  check_frame(file, frame);
+  write_checkpoint(Place(file), frame, std::move(checkpoint));
+}
+
+void write_checkpoint(const Place& place, const Frame& frame, Checkpoint checkpoint) {
+  check_frame(place.path(), frame);
   Tables tables = tables_of(checkpoint.state);
   const Items items = items_of(checkpoint, tables);
-  write_h5(file, size_of(items) + 3 * frame.phi.size() * sizeof(double), [&](hid_t root) {
+  write_h5(place, size_of(items) + 3 * frame.phi.size() * sizeof(double), [&](hid_t root) {
     put_frame(root, frame);
     const H5Handle lamella = owned(H5Gopen2(root, "lamella", H5P_DEFAULT));
     const H5Handle group = create_group(lamella, group_name);

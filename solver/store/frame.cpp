@@ -2,6 +2,7 @@
 
 #include "error.h"
 #include "store/frame_h5.h"
+#include "store/place_frame.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -101,9 +102,13 @@ void put_frame(hid_t root, const Frame& frame) {
 }
 
 void write_frame(const std::filesystem::path& file, const Frame& frame) {
-  check_frame(file, frame);
+  write_frame(Place(file), frame);
+}
+
+void write_frame(const Place& place, const Frame& frame) {
+  check_frame(place.path(), frame);
   const std::size_t size = (frame.phi.size() + frame.psi.size() + frame.c.size()) * sizeof(double);
-  write_h5(file, size, [&](hid_t root) { put_frame(root, frame); });
+  write_h5(place, size, [&](hid_t root) { put_frame(root, frame); });
 }
 
 namespace {

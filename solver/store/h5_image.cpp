@@ -2,15 +2,14 @@
 
 #include "error.h"
 #include "grid/memory.h"
+#include "regular_file.h"
 #include "store/atomic_file.h"
-#include "store/posix_file.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -92,23 +91,15 @@ std::vector<std::byte> verified(const std::filesystem::path& file, std::string_v
   const auto refuse = [&](std::string_view why) {
     throw StoreError(fmt::format("{}: cannot be read as a {}: {}", file.string(), what, why));
   };
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error)
-    throw StoreError(fmt::format("{}: cannot be read: {}", file.string(), error.message()));
+  const RegularFile source(file);
+  const std::uintmax_t size = source.size();
   if (size <= trailer_size || size > largest_file) refuse("its size is out of range");
-  std::ifstream stream(file, std::ios::binary);
-  const auto read = [&](auto& bytes, std::uintmax_t from) {
-    stream.seekg(static_cast<std::streamoff>(from));
-    if (!stream.read(reinterpret_cast<char*>(bytes.data()),
-                     static_cast<std::streamsize>(bytes.size())))
-      throw_system_error(file, "read");
-  };
   std::string end(trailer_size, ' ');
-  read(end, size - trailer_size); // before anything is allocated
+  source.read(size - trailer_size,
+              std::as_writable_bytes(std::span(end))); // before anything is allocated
   if (!end.starts_with(trailer_mark)) refuse("it is not one, or it is cut off");
   std::vector<std::byte> bytes(size - trailer_size);
-  read(bytes, 0);
+  source.read(0, bytes);
   if (end != trailer(bytes)) refuse("it is damaged (the checksum does not fit)");
   return bytes;
 }
@@ -143,18 +134,17 @@ void write_attribute(hid_t object, const char* name, std::string_view value) {
   required(H5Awrite(attribute, type, value.data()));
 }
 
-void write_h5(const std::filesystem::path& file, std::size_t size,
-              const std::function<void(hid_t root)>& fill) {
+void write_h5(const Place& place, std::size_t size, const std::function<void(hid_t root)>& fill) {
   Array<std::byte> image;
   try {
     image = compose(size, fill);
   } catch (const H5Failure&) {
-    throw StoreError(fmt::format("{}: not written: HDF5 ran out of memory", file.string()));
+    throw StoreError(fmt::format("{}: not written: HDF5 ran out of memory", place.path().string()));
   }
   const std::string end = trailer(image);
   const auto end_bytes = std::as_bytes(std::span(end));
   image.insert(image.end(), end_bytes.begin(), end_bytes.end());
-  write_atomically(file, image);
+  write_atomically(place, image);
 }
 
 H5Image::H5Image(const std::filesystem::path& file, std::string_view what)

@@ -1,4 +1,5 @@
 #pragma once
+#include "store/folder.h"
 #include "store/hdf5.h"
 
 #include <array>
@@ -17,8 +18,7 @@ namespace lamella {
 
 /// Write a file by filling its root group; about `size` bytes. Whole or not at all; equal contents
 /// make equal files. Throws StoreError.
-void write_h5(const std::filesystem::path& file, std::size_t size,
-              const std::function<void(hid_t root)>& fill);
+void write_h5(const Place& place, std::size_t size, const std::function<void(hid_t root)>& fill);
 
 // To be called while a file is filled. They fail for want of memory only, which write_h5 reports.
 

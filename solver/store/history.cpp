@@ -1,13 +1,16 @@
 #include "store/history.h"
 
 #include "error.h"
+#include "regular_file.h"
 #include "store/atomic_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
+#include <regex>
 #include <utility>
 
 namespace lamella {
@@ -152,18 +155,37 @@ std::vector<Event> read_events(const std::filesystem::path& file) {
   return read_records(file, "table of events", Event{});
 }
 
-void write_series(const std::filesystem::path& file, std::span<const SeriesEntry> entries) {
+void write_series(const Place& place, std::span<const SeriesEntry> entries) {
   std::string text = "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [";
   std::string_view separator = "\n";
   for (const SeriesEntry& entry : entries) {
     if (!std::isfinite(entry.time))
-      throw StoreError(fmt::format("{}: not written: the time of {} is {}", file.string(),
+      throw StoreError(fmt::format("{}: not written: the time of {} is {}", place.path().string(),
                                    entry.file, entry.time));
     text += fmt::format("{}    {{\"name\": {}, \"time\": {}}}", separator, json_text(entry.file),
                         entry.time);
     separator = ",\n";
   }
-  write_text_atomically(file, text + "\n  ]\n}\n");
+  write_text_atomically(place, text + "\n  ]\n}\n");
+}
+
+void write_series(const std::filesystem::path& file, std::span<const SeriesEntry> entries) {
+  write_series(Place(file), entries);
+}
+
+std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
+  const std::string text = file_text(file);
+  const std::regex entry(R"re(\{"name": "([^"\\]+)", "time": ([^}]+)\})re");
+  std::vector<SeriesEntry> entries;
+  for (std::sregex_iterator at(text.begin(), text.end(), entry), end; at != end; ++at) {
+    const std::string number = (*at)[2];
+    double time = 0;
+    const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), time);
+    if (error != std::errc() || rest != number.data() + number.size())
+      throw StoreError(fmt::format("{}: \"{}\" is not a time", file.string(), number));
+    entries.push_back({(*at)[1], time});
+  }
+  return entries;
 }
 
 } // namespace lamella

@@ -30,10 +30,10 @@ public:
   /// Replaces the file; for records with the same columns as `like`.
   explicit RecordWriter(const std::filesystem::path& file, Record like = {})
       : table_(file, row_of(like)) {}
-  /// Goes on after the first `size` bytes of one.
-  RecordWriter(const std::filesystem::path& file, Record like, std::size_t size)
-      : table_(file, row_of(like), size) {}
-  std::size_t size() const { return table_.size(); }
+  /// Goes on after the rows up to a mark.
+  RecordWriter(const std::filesystem::path& file, Record like, const TableMark& mark)
+      : table_(file, row_of(like), mark) {}
+  const TableMark& mark() const { return table_.mark(); }
   void synchronise() { table_.synchronise(); }
   void add(Record record) { table_.add(row_of(record)); }
 
@@ -56,6 +56,10 @@ struct SeriesEntry {
 
 /// Write "frames.hdf.series": ParaView opens the frames it lists as one data set over time. Whole
 /// or not at all. Throws StoreError.
+void write_series(const Place& place, std::span<const SeriesEntry> entries);
 void write_series(const std::filesystem::path& file, std::span<const SeriesEntry> entries);
+
+/// What write_series wrote, as far as it is that. Throws StoreError for what cannot be read.
+std::vector<SeriesEntry> read_series(const std::filesystem::path& file);
 
 } // namespace lamella

@@ -1,4 +1,6 @@
 #pragma once
+#include "store/folder.h"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -29,7 +31,7 @@ std::string hash_of(std::string_view text);
 
 /// Write status.toml, with the version of the program and its arithmetic. Whole or not at all.
 /// Throws StoreError.
-void write_status(const std::filesystem::path& file, const RunStatus& status);
+void write_status(const Place& place, const RunStatus& status);
 
 /// Throws StoreError for anything else than what write_status wrote.
 RunStatus read_status(const std::filesystem::path& file);

@@ -1,15 +1,16 @@
 #include "store/table.h"
 
 #include "error.h"
+#include "regular_file.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
+#include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <span>
-
-#include <fcntl.h>
 
 namespace lamella {
 namespace {
@@ -63,36 +64,46 @@ bool parse_row(std::string_view line, const Row& row) {
   return line.data() == nullptr;
 }
 
+/// Of a table, when lines are added to it.
+long checksum_after(long checksum, std::string_view lines) {
+  while (!lines.empty()) {
+    const std::string_view line = lines.substr(0, lines.find('\n') + 1);
+    checksum = std::bit_cast<long>(
+        XXH3_64bits_withSeed(line.data(), line.size(), std::bit_cast<XXH64_hash_t>(checksum)));
+    lines.remove_prefix(line.size());
+  }
+  return checksum;
+}
+
 } // namespace
 
 TableWriter::TableWriter(const std::filesystem::path& file, const Row& columns)
-    : path_(file), file_(file, O_CREAT | O_TRUNC | O_APPEND), columns_(columns.size()) {
-  append(header(columns));
+    : path_(file), file_(Place(file)), columns_(columns.size()) {
+  append(header(columns) + '\n');
+  file_.put_in_place();
 }
 
-TableWriter::TableWriter(const std::filesystem::path& file, const Row& columns, std::size_t size)
-    : path_(file), file_(file, O_APPEND), columns_(columns.size()), size_(size) {
-  const auto refuse = [&](std::string_view why) {
-    throw StoreError(fmt::format("{}: the table cannot be continued: {}", file.string(), why));
-  };
-  if (std::filesystem::file_size(file) < size) refuse("rows are missing");
-  std::ifstream stream(file, std::ios::binary);
-  std::string line;
-  if (!std::getline(stream, line) || line != header(columns)) refuse("it has other columns");
-  stream.seekg(std::streamoff(size) - 1);
-  if (stream.get() != '\n') refuse("its rows are not those that were there");
-  if (!file_.truncate(size)) throw_system_error(file, "truncated");
+TableWriter::TableWriter(const std::filesystem::path& file, const Row& columns,
+                         const TableMark& mark)
+    : path_(file), file_(Place(file)), columns_(columns.size()) {
+  const std::string text = read_marked(file, mark);
+  if (!text.starts_with(header(columns) + '\n'))
+    throw StoreError(
+        fmt::format("{}: the table cannot be continued: it has other columns", file.string()));
+  append(text);
+  file_.put_in_place();
 }
 
-void TableWriter::append(const std::string& line) {
-  const std::string text = line + '\n';
+/// Of whole lines.
+void TableWriter::append(const std::string& lines) {
   try {
-    file_.write(std::as_bytes(std::span(text)));
+    file_.write(std::as_bytes(std::span(lines)));
   } catch (const StoreError&) {
-    file_.truncate(size_);
+    file_.truncate(std::size_t(mark_.size));
     throw;
   }
-  size_ += text.size();
+  mark_.size += long(lines.size());
+  mark_.checksum = checksum_after(mark_.checksum, lines);
 }
 
 void TableWriter::add(const Row& row) {
@@ -107,27 +118,38 @@ void TableWriter::add(const Row& row) {
                                    field.column, text, *std::get<double*>(row.front().value)));
     line += fmt::format("{}{}", line.empty() ? "" : ",", text);
   }
-  append(line);
+  append(line + '\n');
+}
+
+std::string read_marked(const std::filesystem::path& file, const TableMark& mark) {
+  const auto refuse = [&](std::string_view why) {
+    throw StoreError(fmt::format("{}: it is damaged: {}", file.string(), why));
+  };
+  const std::string text = file_text(file, std::size_t(std::max(0L, mark.size)));
+  if (long(text.size()) < mark.size || text.empty()) refuse("rows are missing");
+  if (text.back() != '\n' || checksum_after(0, text) != mark.checksum)
+    refuse("its rows are not those that were written");
+  return text;
 }
 
 std::vector<std::string> read_columns(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw_system_error(file, "read");
-  std::string line;
-  std::getline(stream, line);
+  constexpr std::size_t longest_line = 1 << 16;
+  const std::string text = file_text(file, longest_line);
+  std::string_view rest = std::string_view(text).substr(0, text.find('\n')), column;
   std::vector<std::string> columns;
-  std::string_view rest = line, column;
   while (next_text(rest, column)) columns.emplace_back(column);
   return columns;
 }
 
 void read_table(const std::filesystem::path& file, std::string_view what, const Row& columns,
                 const std::function<Row()>& add_row) {
-  std::ifstream stream(file);
-  if (!stream) throw_system_error(file, "read");
+  const std::string text = file_text(file);
   std::size_t number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    const bool is_cut = stream.eof(); // every line ends with a newline
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = rest.find('\n');
+    const bool is_cut = end == rest.npos; // every line ends with a newline
+    const std::string_view line = rest.substr(0, end);
+    rest = is_cut ? std::string_view() : rest.substr(end + 1);
     const auto refuse = [&](std::string_view why) {
       throw StoreError(fmt::format("{}:{}: not a {}: {}", file.string(), number, what, why));
     };

@@ -1,6 +1,6 @@
 #pragma once
 #include "dynamics/event.h"
-#include "store/posix_file.h"
+#include "store/new_file.h"
 
 #include <filesystem>
 #include <functional>
@@ -19,18 +19,23 @@ struct Field {
 };
 using Row = std::vector<Field>;
 
+/// How far a table has come: its bytes, and a checksum of them.
+struct TableMark {
+  long size = 0, checksum = 0;
+  bool operator==(const TableMark&) const = default;
+};
+
 /// A file of comma-separated values: a line of column names, then rows, numbers with 12 significant
 /// digits. Every row is in the file when add returns, so that a killed run keeps its rows.
 class TableWriter {
 public:
-  /// Replaces the file. Throws StoreError, as add does.
+  /// A new file takes the place of one that is there. Throws StoreError, as add does.
   TableWriter(const std::filesystem::path& file, const Row& columns);
-  /// Goes on after the first `size` bytes of a table that another writer left: the size() that it
-  /// had. What follows them is cut off.
-  TableWriter(const std::filesystem::path& file, const Row& columns, std::size_t size);
+  /// Goes on, in a new file, after the rows of a table that another writer left: those up to the
+  /// mark() that it had.
+  TableWriter(const std::filesystem::path& file, const Row& columns, const TableMark& mark);
 
-  /// Bytes.
-  std::size_t size() const { return size_; }
+  const TableMark& mark() const { return mark_; }
   /// Makes the rows last through a power failure.
   void synchronise() { file_.synchronise(); }
 
@@ -42,10 +47,13 @@ private:
   void append(const std::string& line);
 
   std::filesystem::path path_;
-  PosixFile file_;
+  NewFile file_;
   std::size_t columns_;
-  std::size_t size_ = 0; ///< of the whole rows
+  TableMark mark_; ///< after the last whole row
 };
+
+/// The text of a table up to a mark. Throws StoreError where it is not what was written.
+std::string read_marked(const std::filesystem::path& file, const TableMark& mark);
 
 /// The names in the first line of a table. Throws StoreError where the file cannot be read.
 std::vector<std::string> read_columns(const std::filesystem::path& file);

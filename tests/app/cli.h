@@ -7,9 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <map>
 #include <set>
 #include <sstream>
 #include <sys/mount.h>
+#include <thread>
 
 namespace lamella {
 
@@ -61,6 +64,44 @@ inline std::vector<Measures> check_stored(const fs::path& run) {
   return history;
 }
 
+/// All files below a folder by their names, with their contents; of links, where they lead.
+inline std::map<std::string, std::string> contents_of(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder);
+    contents[name] = entry.is_symlink()        ? fs::read_symlink(entry.path()).string()
+                     : entry.is_regular_file() ? text_of(entry.path())
+                                               : "";
+  }
+  return contents;
+}
+
+/// Until it is true, for a minute at most: it comes, the machine may only be slow.
+template <class Condition>
+bool comes_true(Condition condition) {
+  for (int tries = 0; tries < 12000; ++tries) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+/// Waits until a run has stored some steps.
+inline void wait_for_rows(const fs::path& run) {
+  ASSERT_TRUE(comes_true([&] {
+    return std::ranges::count(text_of(run / "history.csv"), '\n') > 5;
+  })) << "no rows in "
+      << run;
+}
+
+/// A run of many small steps.
+inline Arguments slow(const std::string& end_time, const Arguments& more = {}) {
+  return words("run sphere --set grid.nodes=16 --set shape.radius=0.45 "
+               "--set numerics.max_time_step=1e-5 --set run.end_time=" +
+                   end_time,
+               more);
+}
+
 /// Calls of the program in a new folder work(), which is gone afterwards.
 class Cli : public testing::Test {
 protected:
@@ -80,6 +121,15 @@ protected:
 
   const fs::path& work() const { return setting_.folder; }
   Result call(const Arguments& arguments) const { return Program(arguments, setting_).wait(); }
+
+#ifdef LAMELLA_FAULTS
+  /// A setting in which a system call goes wrong, see faults.c.
+  Setting with_fault(const std::string& fault) const {
+    Setting setting = setting_;
+    setting.environment = {{"LD_PRELOAD", LAMELLA_FAULTS}, {"LAMELLA_FAULT", fault}};
+    return setting;
+  }
+#endif
 
   fs::path base_;
   Setting setting_;

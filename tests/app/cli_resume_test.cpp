@@ -3,10 +3,8 @@
 #include "store/checkpoint.h"
 #include "store/run_status.h"
 
-#include <chrono>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <random>
-#include <thread>
 
 // Runs that are interrupted, killed or starved of disk space, and go on.
 namespace lamella {
@@ -32,15 +30,14 @@ protected:
     std::vector<fs::path> files;
     if (fs::exists(work() / run / "checkpoints"))
       for (const auto& entry : fs::directory_iterator(work() / run / "checkpoints"))
-        files.push_back(entry.path());
+        if (entry.path().extension() == ".hdf") files.push_back(entry.path());
     std::ranges::sort(files);
     return files;
   }
 
   /// Waits until a run has stored so many checkpoints.
   void wait_for_checkpoints(const fs::path& run, std::size_t count) const {
-    for (int tries = 0; tries < 2000 && checkpoints_of(run).size() < count; ++tries)
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(comes_true([&] { return checkpoints_of(run).size() >= count; }));
   }
 
   /// Stops a run after its first checkpoint, as a power failure does.
@@ -79,55 +76,63 @@ protected:
 TEST_F(Resume, goes_on_to_the_last_bit_after_an_interrupt) {
   for (const std::string scene : {one_phase, two_phases}) {
     ASSERT_EQ(run(scene + " -o whole --force").code, 0);
-    for (const int signal : {SIGINT, SIGTERM}) {
-      const Program program(words("run --no-pictures " + scene + " -o run --force"), setting_);
-      std::this_thread::sleep_for(std::chrono::milliseconds(signal == SIGINT ? 250 : 450));
-      program.signal(signal);
-      const Result result = program.wait();
-      if (result.code == 0) continue; // a fast machine
-      ASSERT_THAT(result.code, testing::AnyOf(75, 130)) << result.err;
-      if (result.code == 130) continue; // a slow one
-      EXPECT_EQ(read_status(work() / "run" / "status.toml").state, RunStatus::State::interrupted);
-      const Result resumed = run("--resume run --threads 1");
-      EXPECT_EQ(resumed.code, 0) << resumed.err;
-      expect_same_run("whole", "run");
-    }
+    // a pause in which the run waits for the signal, however fast the machine is
+    const Program program(
+        words("run --no-pictures " + scene + " -o run --force"),
+        with_fault("renameat:frame_0001.hdf 1 signal " + std::to_string(SIGSTOP)));
+    ASSERT_TRUE(
+        comes_true([&] { return fs::exists(work() / "run" / "frames" / "frame_0000.hdf"); }));
+    program.wait_until_stopped();
+    program.signal(SIGTERM);
+    program.signal(SIGCONT);
+    const Result result = program.wait();
+    EXPECT_EQ(result.code, 75) << result.err;
+    EXPECT_EQ(read_status(work() / "run" / "status.toml").state, RunStatus::State::interrupted);
+    const Result resumed = run("--resume run --threads 1");
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    expect_same_run("whole", "run");
   }
 }
 
-TEST_F(Resume, survives_being_killed_fifty_times) {
-  const std::string command = std::string(one_phase) + " --checkpoint-every 0.02 --resume ";
+/// At any call that changes a file or a folder, in the order of these: of the first start, of what
+/// goes on with it, and of what replaces it.
+TEST_F(Resume, survives_being_killed_at_any_time) {
+  const std::string scene =
+                        std::string(one_phase) + " --set run.end_time=1e-4 --set output.frames=3",
+                    command = scene + " --checkpoint-every 1e-9 --resume ";
   ASSERT_EQ(run(command + "whole").code, 0);
-  std::mt19937 random(7);
-  int finished = 0;
-  for (int kills = 0; kills < 50;) {
-    const std::string name = "run" + std::to_string(finished);
-    const Program program(words("run --no-pictures " + command + name), setting_);
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(std::uniform_int_distribution(0, 200)(random)));
-    program.signal(SIGKILL);
-    const Result result = program.wait();
-    if (result.code == -SIGKILL) {
-      kills++;
-      continue;
-    }
-    ASSERT_EQ(result.code, 0) << result.err;
+  const auto killed_at = [&](int count, const std::string& arguments) {
+    const Result result = Program(words("run --no-pictures " + arguments),
+                                  with_fault(fmt::format("change {} signal {}", count, SIGKILL)))
+                              .wait();
+    EXPECT_THAT(result.code, testing::AnyOf(-SIGKILL, 0)) << result.err;
+    return result.code == -SIGKILL;
+  };
+  int kills = 0;
+  for (int count = 1;; count += 1 + count / 3) {
+    SCOPED_TRACE(count);
+    const std::string name = "run" + std::to_string(count);
+    if (!killed_at(count, command + name)) break;
+    killed_at(count, command + name);
+    const Result result = run(command + name);
+    EXPECT_EQ(result.code, 0) << result.err;
     expect_same_run("whole", name);
+    write(work() / name / "note.txt", "precious");
+    killed_at(count, scene + " --force -o " + name);
+    EXPECT_EQ(text_of(work() / name / "note.txt"), "precious");
+    const Result again = run(command + name);
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(text_of(work() / name / "history.csv"), text_of(work() / "whole" / "history.csv"));
     EXPECT_THAT(temporary_files_of(name), IsEmpty());
-    finished++;
+    kills++;
   }
-  const std::string last = "run" + std::to_string(finished);
-  const Result result = run(command + last);
-  EXPECT_EQ(result.code, 0) << result.err;
-  expect_same_run("whole", last);
-  EXPECT_THAT(temporary_files_of(last), IsEmpty());
+  EXPECT_GT(kills, 8);
 }
 
 TEST_F(Resume, begins_again_where_there_is_no_checkpoint_yet) {
   ASSERT_EQ(run(std::string(one_phase) + " -o whole").code, 0);
   ASSERT_EQ(run(std::string(one_phase) + " -o run --checkpoint-every 0").code, 0);
   fs::remove(work() / "run" / "status.toml");
-  fs::remove(work() / "run" / "history.csv");
   write(work() / "run" / ".status.toml.123-4.tmp", "half");
   write(work() / "run" / "frames" / ".frame_0003.hdf.123-5.tmp", "half");
   EXPECT_EQ(run("--resume run").code, 0);
@@ -156,14 +161,12 @@ TEST_F(Resume, makes_checkpoints_on_demand_and_keeps_two) {
   const Program program(words(std::string("run --no-pictures -o run ") + one_phase +
                               " --set run.end_time=1 --set grid.nodes=32"),
                         setting_);
-  for (int i = 0; i < 1000 && !fs::exists(work() / "run" / "history.csv"); i++)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  wait_for_rows(work() / "run");
   std::set<fs::path> seen;
   for (int i = 0; i < 3; i++) {
     const auto before = checkpoints_of("run");
     program.signal(SIGUSR1);
-    for (int tries = 0; tries < 1000 && checkpoints_of("run") == before; tries++)
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(comes_true([&] { return checkpoints_of("run") != before; }));
     for (const fs::path& file : checkpoints_of("run")) seen.insert(file);
   }
   program.interrupt();

@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace lamella {
@@ -30,9 +31,11 @@ struct Setting {
   std::filesystem::path folder;               ///< to run in; output files appear beside it
   rlim_t largest_file = RLIM_INFINITY;        ///< bytes
   bool without_privileges = false;            ///< root becomes nobody
-  bool ignore_interrupt = false;              ///< as nohup and shells do for jobs in the background
+  std::vector<int> ignored = {};              ///< signals, as by nohup and for background jobs
   bool closed_output = false;                 ///< no standard output at all
+  bool no_reader = false;                     ///< standard output is a pipe that nobody reads
   std::filesystem::path standard_output = {}; ///< a file to use instead
+  std::vector<std::pair<std::string, std::string>> environment = {}; ///< variables to set
 };
 
 /// The program as a child process.
@@ -46,14 +49,24 @@ public:
     redirect(out_, STDOUT_FILENO);
     redirect(err_, STDERR_FILENO);
     if (setting.closed_output) close(STDOUT_FILENO);
+    if (int ends[2]; setting.no_reader && pipe(ends) == 0) {
+      dup2(ends[1], STDOUT_FILENO);
+      close(ends[0]);
+      close(ends[1]);
+    }
     const rlimit limit{setting.largest_file, setting.largest_file};
     setrlimit(RLIMIT_FSIZE, &limit);
-    if (setting.ignore_interrupt) std::signal(SIGINT, SIG_IGN);
+    for (const int signal : setting.ignored) std::signal(signal, SIG_IGN);
     execute(arguments, setting);
   }
 
   void interrupt() const { signal(SIGINT); }
   void signal(int number) const { kill(id_, number); }
+
+  void wait_until_stopped() const {
+    int status = 0;
+    waitpid(id_, &status, WUNTRACED);
+  }
 
   Result wait() const {
     int status = 0;
@@ -103,6 +116,7 @@ private:
     argv.push_back(nullptr);
     unsetenv("DISPLAY");
     setenv("LC_ALL", "C", 1); // the least that a system offers
+    for (const auto& [name, value] : setting.environment) setenv(name.c_str(), value.c_str(), 1);
     execv(argv[0], argv.data());
     _exit(127);
   }

@@ -1,7 +1,9 @@
 #include "error.h"
 #include "store/atomic_file.h"
+#include "store/folder.h"
 #include "store/frame.h"
 #include "store/history.h"
+#include "store/run_status.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -497,7 +499,7 @@ TEST_F(HistoryStore, RefusesRowsThatAreNotFinite) {
 
 TEST_F(HistoryStore, SaysWhyTheSystemRefuses) {
   EXPECT_THAT(message_of([] { HistoryWriter("/dev/full"); }),
-              HasSubstr("/dev/full: cannot be written: No space left on device"));
+              HasSubstr("/dev/full: cannot be replaced: it is not a regular file"));
   EXPECT_THAT(message_of([] { HistoryWriter("/no/folder/history.csv"); }),
               HasSubstr("No such file"));
   EXPECT_THAT(message_of([] { read_history("/no/folder/history.csv"); }),
@@ -518,6 +520,107 @@ TEST_F(HistoryStore, EndsWithAWholeRowWhenTheDiskIsFull) {
   EXPECT_EQ(read_history(file()).size(), std::size_t(rows - 1));
   writer.add(row(100));
   EXPECT_EQ(read_history(file()).size(), std::size_t(rows));
+}
+
+TEST_F(HistoryStore, GoesOnAfterAMarkInAFileOfItsOwn) {
+  TableMark mark;
+  std::string marked;
+  {
+    HistoryWriter writer(file());
+    for (int n = 0; n < 3; ++n) writer.add(row(n));
+    mark = writer.mark();
+    marked = content_of(file());
+    writer.add(row(3));
+  }
+  const std::string longer = content_of(file());
+  fs::create_hard_link(file(), folder_ / "other name");
+  HistoryWriter writer(file(), row(0), mark);
+  EXPECT_EQ(content_of(file()), marked);
+  writer.add(row(3));
+  EXPECT_EQ(content_of(file()), longer);
+  EXPECT_EQ(content_of(folder_ / "other name"), longer) << "which is another file now";
+  writer.add(row(4));
+  EXPECT_EQ(content_of(folder_ / "other name"), longer);
+  EXPECT_EQ(writer.mark().size, long(content_of(file()).size()));
+}
+
+TEST_F(HistoryStore, GoesOnAfterNothingButWhatWasWritten) {
+  TableMark mark;
+  {
+    HistoryWriter writer(file());
+    for (int n = 0; n < 3; ++n) writer.add(row(n));
+    mark = writer.mark();
+  }
+  const std::string whole = content_of(file());
+  const auto message = [&](const std::string& text) {
+    put(file(), text);
+    const std::string said = message_of([&] { HistoryWriter(file(), row(0), mark); });
+    EXPECT_EQ(content_of(file()), text) << "left as it is";
+    return said;
+  };
+  for (std::size_t n = 0; n < whole.size(); n += 7) {
+    std::string damaged = whole;
+    damaged[n] = char(damaged[n] ^ 1);
+    EXPECT_THAT(message(damaged), HasSubstr("it is damaged: its rows are not those that were"))
+        << n;
+  }
+  EXPECT_THAT(message(whole.substr(0, whole.size() - 1)), HasSubstr("rows are missing"));
+  put(file(), whole + "more");
+  EXPECT_EQ(message_of([&] { HistoryWriter(file(), row(0), mark); }), "no StoreError");
+  EXPECT_EQ(content_of(file()), whole);
+}
+
+TEST_F(Store, StatusIsReadAsItWasWritten) {
+  const fs::path file = folder_ / "status.toml";
+  for (const double time : {0., 1., 2e-5, 8e-4, 1. / 3, 123456., 1e300, 5e-324}) {
+    RunStatus status;
+    status.state = RunStatus::State::stopped;
+    status.time = time;
+    status.reason = "\"quoted\" \\ and more";
+    status.origin = "a folder, t = 1";
+    status.scene_hash = hash_of("scene");
+    write_status(Place(file), status);
+    const RunStatus back = read_status(file);
+    EXPECT_EQ(back.time, time);
+    EXPECT_EQ(back.state, status.state);
+    EXPECT_EQ(back.reason, status.reason);
+    EXPECT_EQ(back.origin, status.origin);
+    EXPECT_EQ(back.scene_hash, status.scene_hash);
+  }
+  for (const char* other : {"", "state = \"finished\"\n", "scene_hash = \"0123456789abcdef\"\n"}) {
+    put(file, other);
+    EXPECT_THAT(message_of([&] { read_status(file); }), HasSubstr("not the status of a run"));
+  }
+}
+
+TEST_F(Store, ReplacesLinksNeitherNorWhatTheyStandFor) {
+  put(folder_ / "outside", "precious");
+  for (const char* target : {"outside", "nothing"}) {
+    const fs::path link = folder_ / "link";
+    fs::create_symlink(target, link);
+    EXPECT_THAT(message_of([&] { write_text_atomically(link, "text"); }),
+                HasSubstr("link: cannot be replaced: it is a symbolic link"));
+    EXPECT_THAT(message_of([&] { HistoryWriter{link}; }), HasSubstr("symbolic link"));
+    EXPECT_EQ(fs::read_symlink(link), target);
+    fs::remove(link);
+  }
+  EXPECT_EQ(content_of(folder_ / "outside"), "precious");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Store, OpensNoFolderOfItsOwnThroughALink) {
+  fs::create_directory(folder_ / "outside");
+  fs::create_directory_symlink("outside", folder_ / "link");
+  const Folder folder(folder_);
+  EXPECT_THAT(message_of([&] { folder.inner("link"); }), HasSubstr("link: is a symbolic link"));
+  EXPECT_THAT(message_of([&] { folder.find("link"); }), HasSubstr("link: is a symbolic link"));
+  EXPECT_EQ(Folder(folder_ / "link").path(), folder_ / "link") << "as a user may name one";
+  const Folder inner = folder.inner("frames");
+  fs::rename(folder_ / "frames", folder_ / "moved");
+  fs::create_directory_symlink("outside", folder_ / "frames");
+  write_text_atomically(Place(inner, "file"), "text");
+  EXPECT_EQ(content_of(folder_ / "moved" / "file"), "text") << "it stays the same folder";
+  EXPECT_TRUE(fs::is_empty(folder_ / "outside"));
 }
 
 TEST_F(HistoryStore, ReadsNothingButHistories) {

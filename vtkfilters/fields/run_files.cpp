@@ -4,10 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <fstream>
 #include <optional>
-#include <regex>
 
 namespace lamella {
 namespace {
@@ -27,23 +24,6 @@ std::optional<fs::path> folder_around(const fs::path& path) {
   return {};
 }
 
-/// What write_series() wrote.
-std::vector<SeriesEntry> read_series(const fs::path& file) {
-  std::ifstream stream(file);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const std::regex entry(R"re(\{"name": "([^"\\]+)", "time": ([^}]+)\})re");
-  std::vector<SeriesEntry> entries;
-  for (std::sregex_iterator at(text.begin(), text.end(), entry), end; at != end; ++at) {
-    const std::string number = (*at)[2];
-    double time = 0;
-    const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), time);
-    if (error != std::errc() || rest != number.data() + number.size())
-      throw StoreError(fmt::format("{}: \"{}\" is not a time", file.string(), number));
-    entries.push_back({(file.parent_path() / (*at)[1].str()).string(), time});
-  }
-  return entries;
-}
-
 } // namespace
 
 RunFiles find_run_files(const fs::path& path) {
@@ -58,6 +38,7 @@ RunFiles find_run_files(const fs::path& path) {
   const fs::path series = *folder / "frames" / "frames.hdf.series";
   RunFiles run{*folder / "scene.toml", *folder / "history.csv", *folder / "events.csv",
                read_series(series)};
+  for (SeriesEntry& frame : run.frames) frame.file = series.parent_path() / frame.file;
   if (run.frames.empty())
     throw StoreError(fmt::format("{}: the run has no frames", folder->string()));
   return run;
