@@ -37,7 +37,7 @@ std::vector<fs::path> make(const fs::path& folder) {
       made.push_back(way);
       continue;
     }
-    const std::error_code why(errno, std::generic_category());
+    const std::error_code why(errno == EEXIST ? ENOTDIR : errno, std::generic_category());
     if (std::error_code ignored; !fs::is_directory(way, ignored))
       throw StoreError(
           fmt::format("{}: cannot be used as output folder: {}", folder.string(), why.message()));
