@@ -28,7 +28,8 @@
 
 namespace
 {
-constexpr int Pause = 50; // milliseconds between looking for events
+constexpr int Pause = 50;          // milliseconds between looking for events
+constexpr int MessageTime = 10000; // milliseconds
 
 pqAnimationScene* AnimationScene()
 {
@@ -163,7 +164,8 @@ void pqAbort::showTimeReached()
   AnimationScene()->setAnimationTime(time);
   if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
   {
-    window->statusBar()->showMessage(tr("Aborted at t = %1. Play goes on from there.").arg(time));
+    window->statusBar()->showMessage(
+      tr("Aborted at t = %1. Play goes on from there.").arg(time), MessageTime);
   }
 }
 

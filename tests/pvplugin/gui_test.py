@@ -244,7 +244,7 @@ class Window(unittest.TestCase):
                         "--set", "output.frames=3"], check=True, capture_output=True)
         session = self.play("run", [
             *choose_file("actionFileOpen", "FileOpenDialog", os.path.join(run, "frames/frames.hdf.series")),
-            ("pqSelectReaderDialog/listWidget", "setCurrent", "1.0"),
+            ("pqSelectReaderDialog/listWidget", "setCurrent", "0.0"), # the first that is offered
             ("pqSelectReaderDialog/okButton", "activate", ""),
             APPLY, LAST, *save_state("run.pvsm")])
         session.wait_for_file("run.pvsm")
