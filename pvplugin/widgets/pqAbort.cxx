@@ -8,7 +8,9 @@
 #include <pqPipelineSource.h>
 #include <pqProgressManager.h>
 #include <pqProgressWidget.h>
+#include <pqServer.h>
 #include <pqServerManagerModel.h>
+#include <pqTimeKeeper.h>
 
 #include <vtkAlgorithm.h>
 #include <vtkCommand.h>
@@ -29,6 +31,7 @@
 namespace
 {
 constexpr int Pause = 50;          // milliseconds between looking for events
+constexpr int MostTries = 100;     // to show the time reached
 constexpr int MessageTime = 10000; // milliseconds
 
 pqAnimationScene* AnimationScene()
@@ -143,6 +146,7 @@ void pqAbort::abort()
     return;
   }
   this->Aborted = true;
+  this->Tries = 0;
   AnimationScene()->getProxy()->InvokeCommand("Stop");
   QTimer::singleShot(1, this, &pqAbort::showTimeReached); // when nothing runs any more
 }
@@ -150,18 +154,25 @@ void pqAbort::abort()
 /** What is shown is said to be of its own time. */
 void pqAbort::showTimeReached()
 {
-  this->Aborted = false;
-  if (!this->Running)
+  vtkInformation* data =
+    this->Running ? this->Running->GetOutputDataObject(0)->GetInformation() : nullptr;
+  if (!data || !data->Has(vtkDataObject::DATA_TIME_STEP()))
   {
+    this->Aborted = false;
     return;
   }
-  vtkInformation* data = this->Running->GetOutputDataObject(0)->GetInformation();
-  if (!data->Has(vtkDataObject::DATA_TIME_STEP()))
-  {
-    return;
-  }
+  pqAnimationScene* scene = AnimationScene();
   const double time = data->Get(vtkDataObject::DATA_TIME_STEP());
-  AnimationScene()->setAnimationTime(time);
+  const double before = scene->getServer()->getTimeKeeper()->getTime();
+  scene->setAnimationTime(time);
+  if (scene->getServer()->getTimeKeeper()->getTime() == before && before != time &&
+    ++this->Tries < MostTries)
+  {
+    scene->setAnimationTime(before); // still at work on what was aborted, and takes no other
+    QTimer::singleShot(Pause, this, &pqAbort::showTimeReached);
+    return;
+  }
+  this->Aborted = false;
   if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
   {
     window->statusBar()->showMessage(

@@ -32,5 +32,6 @@ private:
 
   QElapsedTimer SinceEvents;
   bool Aborted = false;
+  int Tries = 0; // to show the time reached
   vtkWeakPointer<vtkAlgorithm> Running;
 };
