@@ -122,6 +122,7 @@ class Encoder : public Film {
 public:
   Encoder(const QString& program, const Format& format, fs::path file, const MovieOptions& options)
       : file_(std::move(file)), part_(file_.string() + ".part") {
+    for (const fs::path& written : {file_, part_}) Place(written).refuse_other_kinds();
     const Format::Encoder& encoder = encoder_for(program, format);
     process_.setProcessChannelMode(QProcess::SeparateChannels);
     process_.setStandardOutputFile(QProcess::nullDevice());

@@ -256,6 +256,9 @@ TEST_F(Folders, draw_nothing_through_links) {
   fs::create_symlink(base_ / "outside.png", work() / "run" / "figure.png");
   expect_refused(words("render run --width 200"), 4,
                  "run/figure.png: cannot be replaced: it is a symbolic link");
+  fs::create_symlink(base_ / "outside.png", work() / "run" / "movie.mp4.part");
+  call(words("movie run --seconds 0.1 --width 200 --height 200"));
+  EXPECT_EQ(text_of(base_ / "outside.png"), "precious");
 }
 
 TEST_F(Folders, sweep_and_tabulate_nothing_through_links) {
