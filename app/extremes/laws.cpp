@@ -2,6 +2,7 @@
 
 #include "dynamics/simulation.h"
 #include "error.h"
+#include "extremes/verdict.h"
 #include "parallel.h"
 #include "scene/units.h"
 #include "store/history.h"
@@ -18,10 +19,9 @@ namespace lamella {
 
 namespace {
 
-constexpr long most_steps = 60;
-constexpr long most_steps_in_larger_box = 4 * most_steps; // it may take others
-constexpr int larger_by = 16;                             // nodes along each axis
-constexpr double largest_drift = 1e-3, largest_rise = 2e-3;
+constexpr long followed_steps = 60;
+constexpr long steps_of_twins = 4 * followed_steps; // they may take others
+constexpr int larger_by = 16;                       // nodes along each axis
 constexpr double box_tolerance = 1e-4, unit_tolerance = 1e-8, axes_tolerance = 1e-5;
 constexpr double later =
     1.2; // of the time at which a run stops; its twin has until then to stop too
@@ -124,17 +124,24 @@ public:
     if (drift > largest_drift) broken("kept volume and areas", fmt::format("off by {:.1e}", drift));
   }
 
+  void energy() {
+    double rise = 0;
+    for (const Measures& m : run_.history) rise = std::max(rise, m.energy_rise.value_or(0));
+    if (rise > Simulation::largest_rise)
+      broken("falling energy", fmt::format("it rises by {:.1e} in a step", rise));
+  }
+
   void larger_box() {
     const double end = run_.history.back().time;
     const Scene larger = in_larger_box(run_.scene);
-    const Trace twin = trace(larger, most_steps_in_larger_box, end);
+    const Trace twin = trace(larger, steps_of_twins, end);
     if (twin.history.empty() || twin.history.back().time < end)
       return broken("a larger box", "there it stops: " + twin.message);
     const double difference = energy_difference(run_.history.back(), twin.history.back());
     if (difference > box_tolerance)
       broken("a larger box", fmt::format("the energy differs by {:.1e}", difference));
     if (!run_.message.empty() && !is_at_side(run_.message) &&
-        trace(larger, most_steps_in_larger_box, later * end).message.empty())
+        trace(larger, steps_of_twins, later * end).message.empty())
       broken("a larger box", "there it does not stop: " + run_.message);
     for (const Event& event : run_.events)
       if (event.kind != Event::Kind::recentred && event.time < end &&
@@ -156,7 +163,7 @@ public:
 
   void axes() {
     const Trace twin =
-        trace(with_axes_renamed(run_.scene), most_steps_in_larger_box, run_.history.back().time);
+        trace(with_axes_renamed(run_.scene), steps_of_twins, run_.history.back().time);
     const double difference = twin.history.empty()
                                   ? infinity
                                   : energy_difference(run_.history.back(), twin.history.back());
@@ -178,7 +185,7 @@ private:
 
   void same(const std::string& law, const Scene& scene, const UnitChange& change,
             double tolerance) {
-    const Trace twin = trace(scene, most_steps, scene.end_time);
+    const Trace twin = trace(scene, followed_steps, scene.end());
     const double difference = largest_difference(run_, twin, change);
     if (difference > tolerance)
       broken(law, std::isfinite(difference)
@@ -196,7 +203,8 @@ private:
 } // namespace
 
 Trace trace(const Scene& scene, long most_steps, double end_time) {
-  Trace result{.scene = scene};
+  Trace result;
+  result.scene = scene;
   try {
     Simulation sim(scene);
     result.history.push_back(sim.measures());
@@ -215,7 +223,7 @@ Trace trace(const Scene& scene, long most_steps, double end_time) {
 
 LawReport check_laws(const Scene& scene, const std::function<bool()>& go_on) {
   LawReport report;
-  report.run = trace(scene, most_steps, scene.end_time);
+  report.run = trace(scene, followed_steps, scene.end());
   if (report.run.history.empty()) {
     if (report.run.message.empty()) report.broken.push_back({"a message", "it stops without one"});
     return report;
@@ -223,6 +231,7 @@ LawReport check_laws(const Scene& scene, const std::function<bool()>& go_on) {
   Checks checks(report);
   checks.numbers();
   checks.constraints();
+  checks.energy();
   using Twin = void (Checks::*)();
   for (const Twin twin :
        {&Checks::larger_box, &Checks::other_units, &Checks::axes, &Checks::threads})

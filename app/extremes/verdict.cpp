@@ -21,9 +21,6 @@ using Clock = std::chrono::steady_clock;
 constexpr long most_steps = 4000;
 constexpr double most_seconds = 400;
 
-// Relative: drift of what is held.
-constexpr double largest_drift = 1e-3;
-
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }

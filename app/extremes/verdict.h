@@ -26,6 +26,9 @@ enum class Verdict {
   wrong       ///< none of these: a wrong answer without a word, a number that is none, a hang
 };
 
+/// Of what is held, relative.
+inline constexpr double largest_drift = 1e-3;
+
 /// What became of a case.
 struct CaseResult {
   ExtremeCase which;
