@@ -22,17 +22,17 @@ std::string length_text(double length, double spacing) {
 std::string what_happened(const Event& event, double spacing) {
   const std::string place = place_text(event.place, spacing),
                     radius = length_text(event.size, spacing),
+                    of_radius = event.size > 0 ? " of radius " + radius : "",
                     thickness = length_text(2 * event.size, spacing);
   switch (event.kind) {
   case Event::Kind::fission:
-    return fmt::format("a neck of radius {} was cut at {}", radius, place);
+    return fmt::format("a neck{} was cut at {}", of_radius, place);
   case Event::Kind::rupture:
     return fmt::format("a film of inner fluid, {} thick, ruptured at {}", thickness, place);
   case Event::Kind::fusion:
     return fmt::format("the membrane fused with itself across a gap of {} at {}", thickness, place);
   case Event::Kind::vanished:
-    return fmt::format("a part of radius {} at {}, too small for the grid, was removed", radius,
-                       place);
+    return fmt::format("a part{} at {}, too small for the grid, was removed", of_radius, place);
   case Event::Kind::recentred:
     return fmt::format("the box moved by ({}) cells to follow the vesicle",
                        fmt::join(event.cells, ", "));

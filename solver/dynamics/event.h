@@ -25,9 +25,9 @@ struct Event {
   };
   Kind kind = Kind::fission;
   double time = 0;
-  Vec3 place{}; ///< where ParaView shows it: the cells by which the box has moved are added
-  double size =
-      0; ///< length: neck radius, half the thickness of a film or gap, radius of curvature
+  Vec3 place{};    ///< where ParaView shows it: the cells by which the box has moved are added
+  double size = 0; ///< length: neck radius, half the thickness of a film or gap, radius of
+                   ///< curvature; 0: not known
   int components_before = 0, components_after = 0;
   int genus_before = 0, genus_after = 0;
   int domains_before = 0, domains_after = 0;  ///< of the Ld phase

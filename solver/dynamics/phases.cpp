@@ -22,7 +22,9 @@ constexpr double linear_until = 5, level_from = 9;
 constexpr double follow_until = 4, follow_end = 6.6;
 constexpr double foot_reach = 8;
 
-constexpr double far_pull = 0.1;     // towards the distance where it does not matter much, a step
+constexpr double far_pull = 0.1; // towards the distance where it does not matter much, a step
+// How often what the pull moves the boundary by is taken off again: each time leaves a sixteenth.
+constexpr int returns = 3;
 constexpr double inconsistent = 1.5; // distance from psi: the foot is not that of this boundary
 
 Vector3d vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
@@ -133,18 +135,20 @@ void Phases::restore_distance(const NarrowBand& band) {
   });
   std::vector<Vector3d> places;
   for (const BoundaryPoint& p : boundary_.points()) places.push_back(p.x);
-  std::vector<double> at_boundary;
-  for (const Taylor& t : taylor(correction, places)) at_boundary.push_back(t.value);
+  const std::span<double> d = correction.coefficients();
+  std::vector<double> at_boundary(places.size());
+  for (int pass = 0; pass < returns; pass++) {
+    std::ranges::transform(taylor(correction, places), at_boundary.begin(), &Taylor::value);
+    parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; i++)
+        if (feet_[i].exists())
+          d[band.node()[i]] -=
+              band.taper()[i] * boundary_taper(feet_[i].distance) * feet_[i].value(at_boundary);
+    });
+  }
   const std::span<double> c = psi_.coefficients();
-  const std::span<const double> d = correction.coefficients();
   parallel_for(c.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) c[i] += d[i];
-  });
-  parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++)
-      if (feet_[i].exists())
-        c[band.node()[i]] -=
-            band.taper()[i] * boundary_taper(feet_[i].distance) * feet_[i].value(at_boundary);
   });
 }
 

@@ -130,7 +130,7 @@ std::string Simulation::try_step(double then) {
   if (*now.energy_rise > largest_rise) return why_not_risen(now);
   if (broke_film(now)) {
     const CriticalPoint* film = narrowest_place().second;
-    const std::string message = film_message(film ? film->place : Vec3{});
+    const std::string message = film_message(film ? film->place : place_of_change());
     go_back();
     throw RunError(message);
   }

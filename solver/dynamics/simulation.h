@@ -111,6 +111,7 @@ private:
   void note(Event event);
   Event event_now() const;
   Vec3 in_space(Vec3 place) const;
+  Vec3 place_of_change() const;
   std::string film_message(const Vec3& place) const;
 
   Contact contact_;

@@ -194,14 +194,29 @@ void Simulation::note_spontaneous_change() {
   event.genus_before = topology_.genus;
   topology_ = {measures_.components, measures_.genus};
   const auto [gap, place] = narrowest_place();
-  if (place) {
-    event.place = place->place;
-    event.size = place->radius;
-  }
+  event.place = place ? place->place : place_of_change();
+  event.size = place ? place->radius : 0;
   event.kind = gap                                                ? Event::Kind::fusion
                : event.components_after > event.components_before ? Event::Kind::fission
                                                                   : Event::Kind::vanished;
   note(event);
+}
+
+/// Of the nodes that came to be on the other side of the membrane in the last step, the one where
+/// phi changed most. (Nothing narrow was seen before.)
+Vec3 Simulation::place_of_change() const {
+  std::vector<double> before(grid().size());
+  nodal_values(grid(), stepper_.before(), before);
+  const std::span<const double> now = vesicle_.phi().nodal();
+  std::size_t most = 0;
+  double change = -1;
+  for (std::size_t n = 0; n < now.size(); n++) {
+    const bool crossed = (now[n] < 0) != (before[n] < 0);
+    if (!crossed || std::abs(now[n] - before[n]) <= change) continue;
+    change = std::abs(now[n] - before[n]);
+    most = n;
+  }
+  return grid().position(most);
 }
 
 std::string Simulation::film_message(const Vec3& place) const {

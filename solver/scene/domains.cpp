@@ -1,6 +1,6 @@
 #include "scene/domains.h"
 
-#include "parallel.h"
+#include "scene/bulge.h"
 #include "scene/shapes.h"
 
 #include <Eigen/Geometry>
@@ -134,19 +134,12 @@ std::vector<double> initial_psi(const Scene& scene) {
   const std::vector<Cap> caps = caps_of(scene);
   std::vector<double> lengths;
   for (const Cap& cap : caps) lengths.push_back(rim_of(cap, scene.shape).length_an_angle);
-  std::vector<double> psi(grid.size(), std::numeric_limits<double>::max());
-  parallel_for(psi.size(), 1 << 12, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      Vec3 d = grid.position(n);
-      for (int i = 0; i < 3; ++i)
-        d[i] = std::remainder(d[i] - scene.shape.center[i], grid.length(i));
-      for (std::size_t i = 0; i < caps.size(); ++i) {
-        const double angle = angle_between(d, caps[i].direction);
-        psi[n] = std::min(psi[n], lengths[i] * (angle - caps[i].half_angle));
-      }
-    }
+  return mean_over_images(scene.shape, grid, bulged_caps(scene), [&](const Vec3& d) {
+    double psi = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < caps.size(); ++i)
+      psi = std::min(psi, lengths[i] * (angle_between(d, caps[i].direction) - caps[i].half_angle));
+    return psi;
   });
-  return psi;
 }
 
 } // namespace lamella

@@ -37,7 +37,8 @@ double exact_area_ld(const Scene& scene);
 /// rim, times the length on the membrane that an angle has there. So |grad_s psi| is 1 at the rim
 /// (in the mean, where the shape is no body of revolution about the cap's axis), and on a sphere
 /// psi is the signed distance from the phase boundary along the membrane. Constant along rays from
-/// the shape's centre; kinks opposite and in the middle of a cap, and halfway between two.
+/// the shape's centre but for a smooth passage half way to the shape's images beyond the sides of
+/// the box; kinks opposite and in the middle of a cap, and halfway between two.
 std::vector<double> initial_psi(const Scene& scene);
 
 } // namespace lamella

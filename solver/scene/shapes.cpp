@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -134,13 +135,23 @@ double quartic(double ring, double tube, const Vec3& x) {
   return g * g - 4 * ring * ring * rho_squared;
 }
 
+/// 0 up to 0, rising smoothly to 1 at 1.
+double smooth_step(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * u * (10 - u * (15 - 6 * u));
+}
+
 /// The level set in the shape's own frame, with all that does not depend on the point computed
 /// once.
 class ShapeFunction {
 public:
+  /// Where |phi| is more than `reach`, and from half of it on more and more, the shape is taken
+  /// without its perturbation, which costs most of the time.
   ShapeFunction(const Shape& shape, const Perturbation& perturbation,
-                std::span<const BulgedCap> caps = {})
-      : shape_(shape), rotation_(rotation(shape)), displacement_(perturbation, shape), caps_(caps) {
+                std::span<const BulgedCap> caps = {},
+                double reach = std::numeric_limits<double>::infinity())
+      : shape_(shape), rotation_(rotation(shape)), is_perturbed_(perturbation.amplitude > 0),
+        displacement_(perturbation, shape), reach_(reach), caps_(caps) {
     if (shape.kind == ShapeKind::torus) {
       scale_ = 1 / (8 * shape.ring_radius * shape.ring_radius * shape.tube_radius);
     } else {
@@ -153,8 +164,17 @@ public:
   /// d: from the shape's centre.
   double operator()(const Vec3& d) const {
     Vec3 x = to_body(rotation_, d);
+    const double smooth = of_shape(x);
+    if (!is_perturbed_) return smooth;
+    const double share = 1 - smooth_step(2 * std::abs(smooth) / reach_ - 1);
+    if (share == 0) return smooth;
     const Vec3 w = displacement_(x);
-    for (int i = 0; i < 3; ++i) x[i] -= w[i];
+    for (int i = 0; i < 3; ++i) x[i] -= share * w[i];
+    return of_shape(x);
+  }
+
+private:
+  double of_shape(const Vec3& x) const {
     if (shape_.kind == ShapeKind::torus)
       return scale_ * quartic(shape_.ring_radius, shape_.tube_radius, x);
     double phi = scale_ * quadric(axes_, x);
@@ -162,14 +182,51 @@ public:
     return phi;
   }
 
-private:
   Shape shape_;
   Rotation rotation_;
+  bool is_perturbed_;
   Displacement displacement_;
+  double reach_;
   std::span<const BulgedCap> caps_;
   Vec3 axes_{};
   double scale_;
 };
+
+/// use(d_i, f_i, share) for a shape and each of its images beyond the sides of a periodic box: the
+/// way there from its centre, its level set there, and how much it counts, 1 for the shape itself
+/// and what rises from 0 half way to a side to 1 there for an image.
+template <class Use>
+void for_each_image(const ShapeFunction& function, const Vec3& d, const Vec3& length, Use&& use) {
+  Vec3 near;
+  for (int i = 0; i < 3; ++i) near[i] = smooth_step(4 * std::abs(d[i]) / length[i] - 1);
+  use(d, function(d), 1.0);
+  for (int image = 1; image < 8; ++image) {
+    Vec3 there = d;
+    double share = 1;
+    for (int i = 0; i < 3; ++i) {
+      if (!(image >> i & 1)) continue;
+      there[i] -= std::copysign(length[i], d[i]);
+      share *= near[i];
+    }
+    if (share > 0) use(there, function(there), share);
+  }
+}
+
+/// f(d) at the nodes of a grid, d the way there from the nearest image of a shape's centre.
+template <class Function>
+std::vector<double> at_box_nodes(const Grid& grid, const Vec3& center, Function&& f) {
+  std::vector<double> values(grid.size());
+  parallel_for(values.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      Vec3 d = grid.position(n);
+      for (int i = 0; i < 3; ++i) d[i] = std::remainder(d[i] - center[i], grid.length(i));
+      values[n] = f(d);
+    }
+  });
+  return values;
+}
+
+Vec3 side_lengths(const Grid& grid) { return {grid.length(0), grid.length(1), grid.length(2)}; }
 
 } // namespace
 
@@ -258,18 +315,34 @@ double shape_function(const Shape& shape, const Vec3& point, const Perturbation&
 
 std::vector<double> initial_phi(const Shape& shape, const Grid& grid,
                                 const Perturbation& perturbation, std::span<const BulgedCap> caps) {
-  const ShapeFunction function(shape, perturbation, caps);
+  constexpr double perturbed = 12; // spacings
+  const ShapeFunction function(shape, perturbation, caps, perturbed * grid.spacing);
   const double shortest = grid.spacing * std::ranges::min(grid.nodes);
   const double width = std::max(16 * grid.spacing, shortest / 4);
-  std::vector<double> phi(grid.size());
-  parallel_for(phi.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      Vec3 d = grid.position(n);
-      for (int i = 0; i < 3; ++i) d[i] = std::remainder(d[i] - shape.center[i], grid.length(i));
-      phi[n] = width * std::tanh(function(d) / width);
-    }
+  return at_box_nodes(grid, shape.center, [&, length = side_lengths(grid)](const Vec3& d) {
+    double phi = 0, sum = 0;
+    for_each_image(function, d, length, [&](const Vec3&, double f, double share) {
+      if (sum == 0) phi = f;
+      sum += sum == 0 ? 1 : share * (phi / f) * (phi / f);
+    });
+    return width * std::tanh(phi / std::sqrt(sum) / width);
   });
-  return phi;
+}
+
+std::vector<double> mean_over_images(const Shape& shape, const Grid& grid,
+                                     std::span<const BulgedCap> caps,
+                                     const std::function<double(const Vec3&)>& value) {
+  const ShapeFunction function(shape, {}, caps);
+  return at_box_nodes(grid, shape.center, [&, length = side_lengths(grid)](const Vec3& d) {
+    double phi = 0, weights = 0, sum = 0;
+    for_each_image(function, d, length, [&](const Vec3& there, double f, double share) {
+      if (weights == 0) phi = f;
+      const double weight = weights == 0 ? 1 : share * std::pow(phi / f, 4);
+      weights += weight;
+      sum += weight * value(there);
+    });
+    return sum / weights;
+  });
 }
 
 } // namespace lamella

@@ -47,6 +47,8 @@ TEST(Events, TellWhatAChangeOfTopologyDid) {
             "t = 0.00025125: a neck of radius 0.03 (1.5 grid spacings) was cut at (0.1, -0.25, 0); "
             "components 1 -> 2, genus 3 -> 3; area changed by -0.25 % and restored; energy 120.5 "
             "-> 96.25");
+  event.size = 0; // nothing narrow was seen before
+  EXPECT_THAT(to_text(event, 0.02), HasSubstr(": a neck was cut at (0.1, -0.25, 0); components"));
 }
 
 TEST(Events, SayHowFarUnderResolvedAndWhatHelps) {
