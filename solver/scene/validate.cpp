@@ -55,8 +55,8 @@ public:
       ramp("area_difference", scene_.area_difference.ramp);
     spontaneous_curvatures();
     pressure();
+    if (scene_.shape.kind == ShapeKind::sphere) sphere_can_leave();
     if (scene_.has_phases()) {
-      sphere_can_leave();
       gaussian_moduli();
       line_moduli();
     }
@@ -168,13 +168,40 @@ private:
     bulge();
   }
 
-  /// At a given area a sphere is the only shape of its volume.
+  /// At a given area a sphere is the only shape of its volume, and all of it is alike.
   void sphere_can_leave() const {
-    if (scene_.shape.kind == ShapeKind::sphere && scene_.volume.constraint == Constraint::fixed &&
-        !scene_.domains.is_bulged() && scene_.perturbation.amplitude == 0)
-      refuse({"volume.constraint", "shape.kind"},
+    const bool is_fixed = scene_.volume.constraint == Constraint::fixed,
+               is_ramped = scene_.volume.constraint == Constraint::ramped,
+               is_perturbed = scene_.perturbation.amplitude > 0;
+    const bool wants_to = scene_.has_phases()
+                              ? !scene_.domains.is_bulged() && !is_perturbed
+                              : scene_.area_difference.constraint == Constraint::ramped;
+    if (is_fixed && wants_to)
+      refuse({"volume.constraint", "area_difference.constraint", "shape.kind"},
              "a sphere that keeps its volume and area cannot change its shape; allowed: \"ramped\" "
              "to a reduced volume below 1, or \"free\", or another kind in [shape]");
+    if (scene_.has_phases()) return;
+    if (!is_fixed) sphere_keeps_no_area_difference();
+    if (is_ramped && !is_perturbed)
+      refuse({"perturbation.amplitude", "volume.constraint", "shape.kind"},
+             fmt::format("a sphere is alike all around, and nothing says where it is to give way; "
+                         "allowed: another kind in [shape], or in [perturbation] an amplitude "
+                         "above 0, such as {:.2g}",
+                         0.02 * scene_.shape.radius));
+  }
+
+  /// It is 1 on a sphere, and more on all that is near one.
+  void sphere_keeps_no_area_difference() const {
+    const AreaDifferenceConstraint& a = scene_.area_difference;
+    if (a.constraint == Constraint::free ||
+        (a.constraint == Constraint::ramped && a.ramp.start_times.front() > 0))
+      return;
+    refuse({a.constraint == Constraint::ramped ? "area_difference.start_times"
+                                               : "area_difference.constraint",
+            "area_difference.constraint", "shape.kind"},
+           "a sphere has no other area difference than 1, and what leaves it has another; allowed: "
+           "\"ramped\" with start_times that begin when the volume has gone down, or \"free\", or "
+           "another kind in [shape]");
   }
 
   /// A wave along a straight boundary, on both sides the shape of least energy: where the Gaussian
