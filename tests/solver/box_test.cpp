@@ -50,7 +50,7 @@ Scene random_scene(Random& random) {
     const double free = scene.nodes[d] * h / 2 - 3.01 * h - reach[d] * size;
     shape.center[d] = free * random.between(-1, 1);
   }
-  scene.end_time = random.between(4e-4, 1e-3) * size * size * size * size;
+  scene.end_time = random.between(2e-3, 4e-3) * size * size * size * size;
   return scene;
 }
 
@@ -69,25 +69,26 @@ std::vector<Event::Kind> kinds(std::span<const Event> events) {
   return kinds;
 }
 
-void expect_same_in_a_larger_box(const Scene& scene, const std::string& which) {
+void expect_same_in_a_larger_box(const Scene& scene, double tolerance, const std::string& which) {
   SCOPED_TRACE(which);
   ASSERT_NO_THROW(validate(scene));
   const Outcome here = follow(scene), there = follow(in_larger_box(scene));
   EXPECT_EQ(kinds(here.events), kinds(there.events));
   const double energy = there.history.back().energy;
-  EXPECT_NEAR(here.history.back().energy / energy, 1, 1e-4);
+  EXPECT_NEAR(here.history.back().energy / energy, 1, tolerance);
 }
 
-// 8 + 4 pairs of runs, 6 s.
+// Runs come near rest: on the way there, energies differ by the error of unequal steps, 2e-4.
+// Measured: 4e-5 with one phase, 1.7e-4 with two. 12 pairs of runs, 20 s of one core.
 TEST(Box, IsNotFelt) {
-  for (int seed = 1; seed <= 8; seed++) {
+  for (int seed = 1; seed <= 6; seed++) {
     Random random(seed);
-    expect_same_in_a_larger_box(random_scene(random), "seed " + std::to_string(seed));
+    expect_same_in_a_larger_box(random_scene(random), 1e-4, "seed " + std::to_string(seed));
   }
 }
 
 TEST(Box, IsNotFeltByTwoPhases) {
-  for (int seed = 1; seed <= 4; seed++) {
+  for (int seed = 1; seed <= 3; seed++) {
     Random random(100 + seed);
     Scene scene = random_scene(random);
     scene.domains.kind = DomainsKind::cap;
@@ -95,17 +96,16 @@ TEST(Box, IsNotFeltByTwoPhases) {
     scene.domains.direction = random.vector();
     scene.line.tension = random.between(5, 20);
     scene.lo.bending_modulus = random.between(1, 2);
-    scene.end_time /= 4;
-    expect_same_in_a_larger_box(scene, "seed " + std::to_string(seed));
+    expect_same_in_a_larger_box(scene, 3e-4, "seed " + std::to_string(seed));
   }
 }
 
 TEST(Box, IsNotFeltByATurnedOblateThreeSpacingsFromItsSides) {
-  for (const double angle : {-157., 20., 45., 70., 90.}) {
-    Scene scene = scene_of(oblate(0.74, 0.74), 32, 1e-4);
+  for (const double angle : {-157., 20., 90.}) {
+    Scene scene = scene_of(oblate(0.74, 0.74), 32, 1e-3);
     scene.shape.rotation_axis = {1, -1, 1};
     scene.shape.rotation_angle = angle;
-    expect_same_in_a_larger_box(scene, std::to_string(angle) + " degrees");
+    expect_same_in_a_larger_box(scene, 1e-4, std::to_string(angle) + " degrees");
   }
 }
 
