@@ -218,10 +218,11 @@ TEST(Bulges, AreWhereThePhasesAre) {
   EXPECT_FALSE(start.exact);
   const auto without = initial_phi(scene.shape, scene.grid());
   scene.domains.bulge = 0;
-  EXPECT_EQ(start.psi, initial_psi(scene));
+  const auto psi = initial_psi(scene);
   const double h = scene.grid().spacing;
   for (std::size_t n = 0; n < without.size(); ++n) {
     if (std::abs(without[n]) > h) continue;
+    ASSERT_NEAR(start.psi[n], psi[n], 0.1 * h); // images count by their level sets
     const double change = start.phi[n] - without[n];
     ASSERT_GT(change, -1e-14);
     if (start.psi[n] > 3 * h) {

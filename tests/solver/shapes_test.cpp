@@ -339,7 +339,7 @@ TEST(Perturbations, AreTheSameOnEveryGridAndWhereverTheShapeIs) {
       const Vec3 x = grid.position(n);
       const double f = shape_function(shape, x, perturbation);
       if (std::ranges::max(x, {}, [](double c) { return std::abs(c); }) > 0.5 ||
-          std::abs(f) > 5 * grid.spacing)
+          std::abs(f) > 3 * grid.spacing)
         continue; // it feels the shape's images, or fades
       ASSERT_NEAR(phi[n], width * std::tanh(f / width), 1e-14);
     }
