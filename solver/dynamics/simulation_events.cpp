@@ -17,9 +17,9 @@ constexpr double recentre_margin = 3.5;
 // Smaller radii of curvature and half-widths of gaps are reported as unresolved.
 constexpr double least_radius = 0.76, least_half_gap = 0.8;
 
-constexpr double worst_drift = 1e-4;      // of the constraints, after parting
-constexpr int most_cuts = 16;             // at one time
-constexpr int steps_between_attempts = 5; // to part where it would have raised the energy
+constexpr double worst_parted_drift = 1e-4; // of the constraints, after parting
+constexpr int most_cuts = 16;               // at one time
+constexpr int steps_between_attempts = 5;   // to part where it would have raised the energy
 // Squared spacings: smaller domains do not count; smaller ones that are gone shrank away.
 constexpr double least_domain = 8, vanishing_domain = 40;
 constexpr double restart_step = 0.03; // after parting; h^4 / kappa
@@ -253,7 +253,7 @@ bool Simulation::part_at(const Closing& place) {
   const bool hopeless =
       event.size <
       (film ? ClosingRule::hopeless_film : ClosingRule::hopeless_neck) * grid().spacing;
-  if (!(vesicle_.drift(time()) < worst_drift) ||
+  if (!(vesicle_.drift(time()) < worst_parted_drift) ||
       (parted.energy > measures_.energy && (film || !hopeless))) {
     if (film && hopeless) why_not_on_ = film_message(event.place);
     return whole_again();
