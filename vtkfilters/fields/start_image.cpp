@@ -60,8 +60,8 @@ Margins solver_margins(const std::array<int, 3>& nodes, Margins margins) {
   return margins;
 }
 
-Place with_margins(const Place& image, const Margins& margins) {
-  Place place = image;
+ImagePlace with_margins(const ImagePlace& image, const Margins& margins) {
+  ImagePlace place = image;
   for (int a = 0; a < 3; ++a) {
     place.grid.nodes[a] += margins.before[a] + margins.after[a];
     place.center[a] +=
@@ -104,7 +104,7 @@ void widen(ImageVesicle& vesicle) {
   Frame& frame = vesicle.frame;
   const Grid from = frame.grid;
   const Margins margins = solver_margins(from.nodes, clearance_of(frame));
-  const auto [to, center] = with_margins(Place{from, vesicle.center}, margins);
+  const auto [to, center] = with_margins(ImagePlace{from, vesicle.center}, margins);
   if (to == from) return;
   const auto wider = [&](const std::vector<double>& values, double slope) {
     return widened(values, from.nodes, to.nodes, margins.before, slope);
@@ -120,13 +120,13 @@ void widen(ImageVesicle& vesicle) {
 
 } // namespace
 
-Place place_of(const Lattice& lattice) {
-  Place place{evened(lattice)};
+ImagePlace place_of(const Lattice& lattice) {
+  ImagePlace place{evened(lattice)};
   for (int a = 0; a < 3; ++a) place.center[a] = lattice.first[a] - place.grid.origin(a);
   return place;
 }
 
-Place announced_place(vtkInformation& info) {
+ImagePlace announced_place(vtkInformation& info) {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkNew<vtkImageData> image;
   if (info.Has(Pipeline::WHOLE_EXTENT())) image->SetExtent(info.Get(Pipeline::WHOLE_EXTENT()));
@@ -137,7 +137,7 @@ Place announced_place(vtkInformation& info) {
   return place_of(ImageLattice(*image, false).lattice());
 }
 
-Place solver_place(const Place& image) {
+ImagePlace solver_place(const ImagePlace& image) {
   return with_margins(image, solver_margins(image.grid.nodes, {}));
 }
 
