@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace lamella {
 namespace {
@@ -155,15 +156,22 @@ TEST(Fourier, WaveNumbersDifferentiate) {
 }
 
 TEST(StepControl, GrowsAndShrinksWithinBounds) {
+  constexpr double never = std::numeric_limits<double>::infinity();
   const StepControl control({0.005, 0.03, 1, 1e-4});
-  EXPECT_DOUBLE_EQ(control.next(1e-5, 1e-9, 1), 1.3e-5);
-  EXPECT_DOUBLE_EQ(control.next(1e-5, 0.02, 1), 0.5e-5);
-  EXPECT_DOUBLE_EQ(control.next(9e-5, 1e-9, 1), 1e-4);
-  EXPECT_DOUBLE_EQ(control.next(1e-5, 0.005, 750), 1e-5);
-  EXPECT_DOUBLE_EQ(control.next(1e-5, 1e-9, 3000), 0.25e-5);
+  EXPECT_DOUBLE_EQ(control.next(1e-5, 1e-9, 1, never), 1.3e-5);
+  EXPECT_DOUBLE_EQ(control.next(1e-5, 0.02, 1, never), 0.5e-5);
+  EXPECT_DOUBLE_EQ(control.next(9e-5, 1e-9, 1, never), 1e-4);
+  EXPECT_DOUBLE_EQ(control.next(1e-5, 0.005, 750, never), 1e-5);
+  EXPECT_DOUBLE_EQ(control.next(1e-5, 1e-9, 3000, never), 0.25e-5);
+}
+
+TEST(StepControl, DoesNotGoBelowWhatABumpTakesToRelax) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const StepControl control({0.005, 0.03, 1, 1e-4});
   const double floor = 0.25 * std::pow(0.03, 4);
-  EXPECT_DOUBLE_EQ(control.next(floor, 1e9, 1e9), floor);
-  EXPECT_DOUBLE_EQ(control.next(floor / 10, 1e9, 1e9), 1.2 * floor / 10);
+  EXPECT_DOUBLE_EQ(control.next(floor, 1e9, 1e9, never), floor);
+  EXPECT_DOUBLE_EQ(control.next(floor / 10, 1e9, 1e9, never), 1.2 * floor / 10);
+  EXPECT_DOUBLE_EQ(control.next(floor, 1e9, 1e9, floor), floor / 4) << "of the phase boundary";
 }
 
 TEST(Parallel, SumsDoNotDependOnTheNumberOfThreads) {
