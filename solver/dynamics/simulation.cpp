@@ -15,9 +15,10 @@ namespace {
 constexpr double margin = 2.75;
 
 constexpr double hopeless_drift = 1e-4; // off the constraints, of a step that fails
-// Of steps to before one point in time, each ten times shorter than the one before. (Not in a row:
-// at a jump of the energy shorter ones go well, and every time end nearer to it.)
+// Of steps to before one point in time, each ten times shorter than the one before. (Where the
+// energy jumps not in a row: shorter ones go well, and every time end nearer to it.)
 constexpr int most_failures = 8;
+constexpr double shortest_step = 1e-10; // h^4 / kappa; what fails in so short a step fails for good
 // Of what steps add to the constraints beyond first order; on a sphere it cannot be made up for.
 constexpr double memory = 0.9;
 
@@ -87,9 +88,10 @@ void Simulation::step(double latest) {
   for (;;) {
     double then = time() + choose_dt(latest);
     if (then > latest * (1 - 1e-12)) then = latest; // rounding
-    const std::string why = try_step(then);
-    if (why.empty()) break;
-    take_back(then, why);
+    const double dt = then - time();
+    const std::optional<Failure> failure = try_step(then);
+    if (!failure) break;
+    take_back(*failure, dt);
   }
   if (time() >= failed_before_) failures_ = 0;
   change_topology_if_needed();
@@ -100,7 +102,7 @@ void Simulation::step(double latest) {
 }
 
 /// Why a step cannot be kept; nothing where it is.
-std::string Simulation::try_step(double then) {
+std::optional<Simulation::Failure> Simulation::try_step(double then) {
   const SurfaceGeometry& surface = vesicle_.surface();
   const double dt = then - time(), scale = vesicle_.energy_scale();
   gauge_.filter(vesicle_.phi(), vesicle_.band());
@@ -122,12 +124,12 @@ std::string Simulation::try_step(double then) {
   last_dt_ = dt;
   broken_ = true;
   const Quantities excess = vesicle_.measure(then);
-  if (!(vesicle_.drift(then) < hopeless_drift)) return why_not_kept();
+  if (!(vesicle_.drift(then) < hopeless_drift)) return Failure{why_not_kept(), time()};
   Measures now = vesicle_.measures(then);
   now.dt = dt;
   if (driven_ == 0 && !vesicle_.is_driven(time(), then))
     now.energy_rise = std::max(0.0, (now.energy - measures_.energy) / scale);
-  if (*now.energy_rise > largest_rise) return why_not_risen(now);
+  if (*now.energy_rise > largest_rise) return Failure{why_not_risen(now), then};
   if (broke_film(now)) {
     const CriticalPoint* film = narrowest_place().second;
     const std::string message = film_message(film ? film->place : place_of_change());
@@ -144,9 +146,10 @@ std::string Simulation::try_step(double then) {
 }
 
 /// For a shorter step, or not at all.
-void Simulation::take_back(double then, const std::string& why) {
-  if (failures_ == 0) failed_before_ = then;
-  if (++failures_ >= most_failures) throw RunError(why);
+void Simulation::take_back(const Failure& failure, double dt) {
+  const double h = grid().spacing, shortest = shortest_step * h * h * h * h / vesicle_.stiffness();
+  failed_before_ = failures_ == 0 ? failure.until : std::max(failed_before_, failure.until);
+  if (++failures_ >= most_failures || dt < shortest) throw RunError(failure.why);
   go_back();
 }
 

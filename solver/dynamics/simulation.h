@@ -74,8 +74,13 @@ private:
   static int responses_of(const Scene& scene);
 
   // steps: simulation.cpp
-  std::string try_step(double then);
-  void take_back(double then, const std::string& why);
+  /// Of a step, and the time that must be passed for it to be overcome.
+  struct Failure {
+    std::string why;
+    double until;
+  };
+  std::optional<Failure> try_step(double then);
+  void take_back(const Failure& failure, double dt);
   void predict_boundary(double dt);
   void step_stretch(double dt);
   void apply_constrained(double time);
@@ -131,7 +136,7 @@ private:
   double last_dt_ = 0;                     // 0: none yet
   double response_dt_ = 0;                 // the step that the responses were found for
   long steps_ = 0, renormalised_ = 0, next_parting_ = 0, next_search_ = 0;
-  long failures_ = 0; // of steps from before failed_before_, the end of the first of them
+  long failures_ = 0; // of steps from before failed_before_
   double failed_before_ = 0;
   long driven_ = 0;
   std::array<int, 3> cells_{}; // by which the box has moved

@@ -50,7 +50,7 @@ double smallest_radius_of_curvature(const Shape& shape);
 /// represents exactly, scaled so that |grad phi| on the surface lies around 1: from
 /// sqrt(c / a) to sqrt(a / c) for semi-axes from c to a. It levels off as W tanh(phi / W), W the
 /// larger of 16 spacings and a quarter of the box. Towards the sides it is made periodic: with f_i
-/// the polynomials of the shape's images beyond them, f becomes f / sqrt(1 + sum (f / f_i)^2),
+/// the polynomials of the shape's images beyond them, f becomes f / (1 + sum (f / f_i)^4)^(1/4),
 /// which vanishes nowhere else than f and has a smooth ridge half way to an image. (Without, the
 /// level set of a turned shape jumped at the sides; the ringing of the spline there grew to pieces
 /// of membrane in empty space.) (A first-order distance, f / |grad f|, is smooth too, but not on

@@ -472,11 +472,11 @@ TEST(BadFiles, MissingFile) {
 
 TEST(BadFiles, Folder) {
   const auto folder = std::filesystem::temp_directory_path();
-  EXPECT_THAT(read_message(folder), StartsWith(folder.string() + ": this is a folder"));
+  EXPECT_THAT(read_message(folder), StartsWith(folder.string() + ": cannot be read: it is a folder"));
 }
 
 TEST(BadFiles, EndlessDevice) {
-  EXPECT_THAT(read_message("/dev/zero"), HasSubstr("larger than 1 MiB"));
+  EXPECT_THAT(read_message("/dev/zero"), HasSubstr("it is a device, not a file"));
 }
 
 TEST(BadFiles, ErrorsNameTheFileAsItWasGiven) {
