@@ -31,6 +31,7 @@ const std::map<std::string_view, std::pair<const char*, const char*>> names{
     {"v", {"reduced volume", "*v*"}},
     {"Da", {"area difference", "Δ*a*"}},
     {"dA_rel", {"error of the area", ""}},
+    {"energy_rise", {"rise of the energy in a step", ""}},
     {"dV_rel", {"error of the volume", ""}},
     {"max_speed", {"largest speed", ""}},
     {"bending_Ld", {"bending of Ld", ""}},
@@ -68,7 +69,8 @@ Notations all_notations() {
   Measures measures;
   measures.phases.emplace().line_terms = {0, 0, 0, 0};
   measures.stretch.emplace();
-  measures.pressure_energy = measures.area_difference_energy = measures.film_energy = 0;
+  measures.pressure_energy = measures.area_difference_energy = measures.film_energy =
+      measures.energy_rise = 0;
   for (const Field& field : row_of(measures)) {
     const auto known = names.find(field.column);
     Notation& notation = all[field.column];

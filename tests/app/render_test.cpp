@@ -478,7 +478,7 @@ TEST_F(Render, says_that_a_folder_cannot_be_written_to) {
     return error_of([&] { draw_run(StoredStates(folder_), where, small); });
   };
   EXPECT_THAT(into(folder_ / "missing"),
-              AllOf(HasSubstr("figure.png"), HasSubstr("No such file or directory")));
+              AllOf(HasSubstr("missing"), HasSubstr("No such file or directory")));
   EXPECT_THAT(into("/dev/null"), HasSubstr("Not a directory"));
 }
 

@@ -472,7 +472,8 @@ TEST(BadFiles, MissingFile) {
 
 TEST(BadFiles, Folder) {
   const auto folder = std::filesystem::temp_directory_path();
-  EXPECT_THAT(read_message(folder), StartsWith(folder.string() + ": cannot be read: it is a folder"));
+  EXPECT_THAT(read_message(folder),
+              StartsWith(folder.string() + ": cannot be read: it is a folder"));
 }
 
 TEST(BadFiles, EndlessDevice) {

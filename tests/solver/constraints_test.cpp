@@ -228,7 +228,8 @@ TEST(FreeVolume, ComesToRestWhereItsPressureIsThatOfTheEquilibrium) {
   scene.volume.pressure = interpolated(exact, v, 3) / (R * R * R);
   const std::vector<Measures> history = run(scene);
   const Measures& end = history.back();
-  EXPECT_LE(largest_rise(history), 1e-3) << "of bending energy - P V"; // measured 7e-4 of 88, at rest
+  EXPECT_LE(largest_rise(history), 1e-3)
+      << "of bending energy - P V"; // measured 7e-4 of 88, at rest
   EXPECT_NEAR(end.energy, end.bending_energy - scene.volume.pressure * end.volume, 1e-9);
   EXPECT_EQ(end.P, scene.volume.pressure);
   // The volume is soft, P changes little with it: what is left falls as exp(-43 t).
