@@ -39,7 +39,7 @@ struct LawReport {
 /// - the energy of an undriven run does not rise in a step by more than docs/extremes.md allows;
 /// - in a box that is larger by 8 spacings on all sides nothing else happens: no event less, the
 /// energy
-///   the same to 1e-4;
+///   the same to 1e-3 (two boxes take unequal steps);
 /// - in units of length and energy that differ by powers of two the history is the same to 1e-8;
 /// - with x, y, z renamed y, z, x the energy is the same to 1e-5;
 /// - on one thread the history is the same to the last bit.

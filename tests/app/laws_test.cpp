@@ -1,5 +1,8 @@
-// The random scenes of `lamella extremes --random`.
+// The random scenes of `lamella extremes --random`, and that some of them obey the laws of every
+// run.
+#include "extremes/laws.h"
 #include "extremes/random_scene.h"
+#include "extremes/report.h"
 #include "scene/scene_toml.h"
 
 #include <gtest/gtest.h>
@@ -36,6 +39,15 @@ TEST(RandomScenes, AreOfAllKinds) {
   EXPECT_EQ(shapes.size(), 5u);
   for (const int count : {two_phases, ramped, stretched, turned}) EXPECT_GT(count, 3);
 }
+
+class Laws : public testing::TestWithParam<int> {};
+
+TEST_P(Laws, HoldForRandomScenes) {
+  const LawReport report = check_laws(random_scene(1, GetParam()), [] { return true; });
+  EXPECT_TRUE(report.broken.empty()) << law_text(report) << to_toml(report.run.scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seed1, Laws, testing::Range(1, 7));
 
 } // namespace
 } // namespace lamella
