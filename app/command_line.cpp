@@ -3,9 +3,9 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "kernels/kernels.h"
+#include "nearest.h"
 #include "progress.h"
 #include "scene/keys.h"
-#include "scene/nearest.h"
 #include "usage_error.h"
 #include "version.h"
 

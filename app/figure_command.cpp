@@ -5,10 +5,10 @@
 #include "figures/figure_page.h"
 #include "find_scene.h"
 #include "interrupt.h"
+#include "nearest.h"
 #include "output_folder.h"
 #include "progress.h"
 #include "run_queue.h"
-#include "scene/nearest.h"
 #include "store/atomic_file.h"
 #include "usage_error.h"
 

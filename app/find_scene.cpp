@@ -1,11 +1,11 @@
 #include "find_scene.h"
 
 #include "error.h"
+#include "nearest.h"
 #include "regular_file.h"
 #include "run_contents.h"
 #include "scene/builtin.h"
 #include "scene/keys.h"
-#include "scene/nearest.h"
 #include "scene/scene_toml.h"
 
 #include <algorithm>

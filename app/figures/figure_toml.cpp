@@ -1,9 +1,9 @@
 #include "figures/figure_spec.h"
 
 #include "error.h"
+#include "nearest.h"
 #include "scene/document.h"
 #include "scene/keys.h"
-#include "scene/nearest.h"
 #include "scene/units.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "scene/builtin.h"
 
 #include "error.h"
-#include "scene/nearest.h"
+#include "nearest.h"
 #include "scene/scene_toml.h"
 
 #include <fmt/format.h>

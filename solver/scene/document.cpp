@@ -1,8 +1,8 @@
 #include "scene/document.h"
 
 #include "error.h"
+#include "nearest.h"
 #include "regular_file.h"
-#include "scene/nearest.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #include "scene/preset.h"
 
 #include "error.h"
-#include "scene/nearest.h"
+#include "nearest.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

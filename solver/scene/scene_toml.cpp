@@ -1,7 +1,7 @@
 #include "scene/scene_toml.h"
 
+#include "nearest.h"
 #include "scene/document.h"
-#include "scene/nearest.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #include "error.h"
+#include "nearest.h"
 #include "scene/builtin.h"
 #include "scene/keys.h"
-#include "scene/nearest.h"
 #include "scene/scene_toml.h"
 
 #include <gmock/gmock.h>

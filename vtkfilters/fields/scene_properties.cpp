@@ -1,7 +1,7 @@
 #include "fields/scene_properties.h"
 
 #include "fields/image.h"
-#include "scene/nearest.h"
+#include "nearest.h"
 
 #include <fmt/format.h>
 

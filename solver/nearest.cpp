@@ -1,4 +1,4 @@
-#include "scene/nearest.h"
+#include "nearest.h"
 
 #include <fmt/format.h>
 
