@@ -14,6 +14,11 @@ struct RunError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A text is no formula; the message says where in it and what is allowed.
+struct FormulaError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// A file could not be written or read; the message names it and what the system said.
 struct StoreError : std::runtime_error {
   using std::runtime_error::runtime_error;
