@@ -45,8 +45,8 @@ std::string difference_text(std::span<const Key* const> keys, const Scene& from,
 }
 
 void refuse_unbranchable(std::span<const Key* const> changed, const Scene& from, const Scene& to) {
-  constexpr std::array<std::string_view, 6> fixed{"grid",    "shape",  "perturbation",
-                                                  "domains", "volume", "area_difference"};
+  constexpr std::array<std::string_view, 7> fixed{"grid",   "shape", "perturbation",   "domains",
+                                                  "volume", "area",  "area_difference"};
   std::vector<const Key*> refused;
   for (const Key* key : changed)
     if (is_in(*key, fixed)) refused.push_back(key);

@@ -20,8 +20,8 @@ vtkStandardNewMacro(vtkVesicleDynamics);
 
 namespace
 {
-constexpr std::array<std::string_view, 13> Sections = { "membrane", "domains", "ld", "lo", "line",
-  "stretch", "volume", "area_difference", "contact", "run", "stop", "numerics", "output" };
+constexpr std::array<std::string_view, 14> Sections = { "membrane", "domains", "ld", "lo", "line",
+  "stretch", "volume", "area", "area_difference", "contact", "run", "stop", "numerics", "output" };
 
 lamella::Trajectory Begin(const lamella::Scene& scene, lamella::Frame start)
 {
@@ -84,6 +84,8 @@ lamellaChoiceProperty(vtkVesicleDynamics, VolumeConstraint, "volume", "constrain
 lamellaRampProperty(vtkVesicleDynamics, Volume, volume.ramp);
 lamellaProperty(vtkVesicleDynamics, VolumeRate, double, volume.ramp.rate);
 lamellaProperty(vtkVesicleDynamics, VolumePressure, double, volume.pressure);
+lamellaChoiceProperty(vtkVesicleDynamics, VolumeOf, "volume", "of");
+lamellaChoiceProperty(vtkVesicleDynamics, AreaOf, "area", "of");
 lamellaChoiceProperty(
   vtkVesicleDynamics, AreaDifferenceConstraint, "area_difference", "constraint");
 lamellaRampProperty(vtkVesicleDynamics, AreaDifference, area_difference.ramp);

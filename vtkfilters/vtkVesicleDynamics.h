@@ -220,6 +220,22 @@ public:
   ///@}
 
   ///@{
+  /** [volume] of: fixed, ramped: each: every vesicle has its own volume, keeps it after parting, and
+   * the sum after fusing; all: they have one together, water passes between them. "each", "all".
+   * Default "each". */
+  void SetVolumeOf(const char* value);
+  const char* GetVolumeOf();
+  ///@}
+
+  ///@{
+  /** [area] of: each: every vesicle has its own area, keeps it after parting, and the sum after
+   * fusing; all: they have one together, lipid passes between them. "each", "all". Default
+   * "each". */
+  void SetAreaOf(const char* value);
+  const char* GetAreaOf();
+  ///@}
+
+  ///@{
   /** [area_difference] constraint: fixed: as it is at the start; ramped: led to targets; free:
    * under a multiplier. "fixed", "ramped", "free". Default "free". */
   void SetAreaDifferenceConstraint(const char* value);

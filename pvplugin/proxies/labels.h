@@ -72,6 +72,8 @@ inline const std::vector<Group>& panel_groups() {
            {"volume.targets", "Volume Targets"},
            {"volume.rate", "Volume Rate (τ⁻¹)"},
            {"volume.pressure", "Pressure (ε⁄ℓ³)"},
+           {"volume.of", "Volume Of", advanced},
+           {"area.of", "Area Of", advanced},
            {"area_difference.constraint", "Area Difference"},
            {"area_difference.targets", "Area Difference Targets"},
            {"area_difference.rate", "Area Difference Rate (τ⁻¹)"},

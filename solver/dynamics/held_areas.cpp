@@ -37,13 +37,18 @@ HeldAreas::Integrals& HeldAreas::Integrals::operator+=(const Integrals& other) {
   return *this;
 }
 
-void HeldAreas::find(const NarrowBand& band, const DomainMap& map, const PhaseBoundary& boundary) {
+void HeldAreas::find(const NarrowBand& band, const DomainMap& map, const PhaseBoundary& boundary,
+                     const Components& vesicles) {
   if (!of_each_domain_) {
-    parts_.resize(1);
-    of_point_.assign(boundary.points().size(), {0, -1});
+    parts_.resize(of_each_vesicle_ ? std::size_t(vesicles.count()) : 1);
+    of_point_.clear();
+    for (const BoundaryPoint& p : boundary.points())
+      of_point_.push_back(
+          {of_each_vesicle_ ? vesicles.at({p.x[0], p.x[1], p.x[2]}, {p.N[0], p.N[1], p.N[2]}) : 0,
+           -1});
     return;
   }
-  find_domains(band, map);
+  find_domains(band, map, vesicles);
   of_point_.clear();
   for (const BoundaryPoint& p : boundary.points()) {
     const Vector3d way = beside * band.grid().spacing * p.n, in = p.x - way, out = p.x + way;
@@ -52,17 +57,23 @@ void HeldAreas::find(const NarrowBand& band, const DomainMap& map, const PhaseBo
   }
 }
 
-/// All domains but specks and the largest of Lo.
-void HeldAreas::find_domains(const NarrowBand& band, const DomainMap& map) {
+/// All domains but specks and the largest of Lo of each vesicle.
+void HeldAreas::find_domains(const NarrowBand& band, const DomainMap& map,
+                             const Components& vesicles) {
   const double least = least_holding_domain * band.grid().spacing * band.grid().spacing;
-  const auto rest = std::ranges::max_element(map.domains, {},
-                                             [](const Domain& d) { return d.is_Ld ? -1 : d.area; });
+  std::vector<int> vesicle(map.domains.size(), 0), rest(std::size_t(vesicles.count()), -1);
+  for (std::size_t s = 0; of_each_vesicle_ && s < band.size(); s++)
+    if (map.of_entry[s] >= 0) vesicle[map.of_entry[s]] = vesicles.of_entry(s);
+  for (std::size_t d = 0; d < map.domains.size(); d++) {
+    int& most = rest[vesicle[d]];
+    if (!map.domains[d].is_Ld && (most < 0 || map.domains[d].area > map.domains[most].area))
+      most = int(d);
+  }
   std::vector<Part> found;
   std::vector<signed char> part(map.domains.size(), -1);
   for (std::size_t d = 0; d < map.domains.size(); d++) {
     const Domain& domain = map.domains[d];
-    if (domain.area < least || (&domain == &*rest && !domain.is_Ld) || found.size() == most_parts)
-      continue;
+    if (domain.area < least || int(d) == rest[vesicle[d]] || found.size() == most_parts) continue;
     part[d] = static_cast<signed char>(found.size());
     found.push_back({domain.is_Ld, domain.center, 0});
   }
@@ -98,24 +109,24 @@ HeldAreas::Sides HeldAreas::at(std::size_t node) const {
   return parts_[part].is_Ld ? Sides{part, -1} : Sides{-1, part};
 }
 
-void HeldAreas::sample(const Grid& grid, const SurfaceGeometry& surface,
-                       std::span<const int> point) {
+void HeldAreas::sample(const Grid& grid, const SurfaceGeometry& surface, std::span<const int> point,
+                       const Components& vesicles) {
   of_sample_.resize(surface.size());
   for (std::size_t i = 0; i < surface.size(); i++)
-    of_sample_[i] = point[i] >= 0     ? of_point_[point[i]]
-                    : of_each_domain_ ? at(grid.nearest(surface.point(i)))
-                                      : Sides{0, -1};
+    of_sample_[i] = point[i] >= 0      ? of_point_[point[i]]
+                    : of_each_domain_  ? at(grid.nearest(surface.point(i)))
+                    : of_each_vesicle_ ? Sides{vesicles.of_sample(i), -1}
+                                       : Sides{0, -1};
 }
 
-HeldAreas::Integrals HeldAreas::integrate(const SurfaceGeometry& surface,
-                                          std::span<const double> share,
-                                          std::span<const double> variation,
-                                          const PhaseBoundary& boundary,
-                                          std::span<const double> speed, double drag) const {
+HeldAreas::Integrals
+HeldAreas::integrate(const SurfaceGeometry& surface, std::span<const double> share,
+                     std::span<const double> variation, const PhaseBoundary& boundary,
+                     std::span<const double> speed, double drag, const Components& vesicles) const {
   const Eigen::Index n = Eigen::Index(size());
-  auto none = [n] {
-    return Integrals{MatrixXd::Zero(n, 3), MatrixXd::Zero(n, n), MatrixXd::Zero(n, n),
-                     VectorXd::Zero(n), VectorXd::Zero(n)};
+  auto none = [n, &vesicles] {
+    return Integrals{MatrixXd::Zero(n, 3 * vesicles.count()), MatrixXd::Zero(n, n),
+                     MatrixXd::Zero(n, n), VectorXd::Zero(n), VectorXd::Zero(n)};
   };
   Integrals sum =
       parallel_sum<Integrals>(surface.size(), 8192, [&](std::size_t begin, std::size_t end) {
@@ -129,7 +140,8 @@ HeldAreas::Integrals HeldAreas::integrate(const SurfaceGeometry& surface,
           for (const auto& [part, q] : {std::pair{ld, of_ld}, {lo, of_lo}}) {
             if (q == 0) continue;
             some.area[part] += w * q;
-            some.with_surface.row(part) += w * q * KM * Eigen::RowVector3d(1, KM, K);
+            some.with_surface.block<1, 3>(part, 3 * vesicles.of_sample(i)) +=
+                w * q * KM * Eigen::RowVector3d(1, KM, K);
             some.gram(part, part) += w * q * q * KM * KM;
             some.variation[part] += w * q * KM * F;
           }

@@ -1,4 +1,5 @@
 #pragma once
+#include "dynamics/components.h"
 #include "geometry/phase_boundary.h"
 #include "geometry/surface_geometry.h"
 #include "levelset/domains.h"
@@ -11,15 +12,16 @@
 
 namespace lamella {
 
-/// The parts of the phases whose areas are held, and the tensions that hold them: all of Ld; or,
-/// where lipid resists local stretch and so cannot get from one domain into another, every domain
-/// of both phases but the largest of Lo, which has what is left (at most 100; specks hold nothing).
+/// The parts of the phases whose areas are held, and the tensions that hold them: all of Ld, or
+/// that of each vesicle that keeps its own lipid; or, where lipid resists local stretch and so
+/// cannot get from one domain into another, every domain of both phases but the largest of Lo of
+/// each vesicle, which has what is left (at most 100; specks hold nothing).
 class HeldAreas {
 public:
   /// What a tension in each part alone does: it gives the membrane the normal velocity q K_M, q the
   /// share of the part, and its boundary one of 1 / drag inwards.
   struct Integrals {
-    Eigen::MatrixXd with_surface; ///< rows: int q K_M (1, K_M, K) dA
+    Eigen::MatrixXd with_surface; ///< rows: int q K_M (1, K_M, K) dA over each vesicle in turn
     Eigen::MatrixXd gram;         ///< of the parts among themselves, the boundary included
     Eigen::VectorXd variation;    ///< int q K_M F dA, and oint of the boundary's speed outwards
     Eigen::VectorXd area;
@@ -28,20 +30,22 @@ public:
     Integrals& operator+=(const Integrals& other);
   };
 
-  HeldAreas(bool of_each_domain, double spacing)
-      : of_each_domain_(of_each_domain), spacing_(spacing) {}
+  HeldAreas(bool of_each_domain, bool of_each_vesicle, double spacing)
+      : of_each_domain_(of_each_domain), of_each_vesicle_(of_each_vesicle), spacing_(spacing) {}
 
   /// Finds the parts on a membrane that moved. Domains that met or parted begin with the areas that
   /// they then have.
-  void find(const NarrowBand& band, const DomainMap& domains, const PhaseBoundary& boundary);
+  void find(const NarrowBand& band, const DomainMap& domains, const PhaseBoundary& boundary,
+            const Components& vesicles);
   /// Finds the parts of samples; `point`: of the boundary, next to each sample, -1 where there is
   /// none near.
-  void sample(const Grid& grid, const SurfaceGeometry& surface, std::span<const int> point);
+  void sample(const Grid& grid, const SurfaceGeometry& surface, std::span<const int> point,
+              const Components& vesicles);
   /// `share` of Ld and variation F at the samples (F empty: 0), `speed` along n at the boundary's
   /// points without tensions, `drag` of the boundary.
   Integrals integrate(const SurfaceGeometry& surface, std::span<const double> share,
                       std::span<const double> variation, const PhaseBoundary& boundary,
-                      std::span<const double> speed, double drag) const;
+                      std::span<const double> speed, double drag, const Components& vesicles) const;
 
   /// Tensions of the parts, above that of the rest; `area` of the membrane.
   void set_tensions(const Eigen::VectorXd& tensions, const Integrals& integrals,
@@ -75,13 +79,13 @@ private:
   struct Sides {
     int ld = -1, lo = -1;
   };
-  void find_domains(const NarrowBand& band, const DomainMap& domains);
+  void find_domains(const NarrowBand& band, const DomainMap& domains, const Components& vesicles);
   void take_over_targets(std::vector<Part>& found) const;
   Sides at(std::size_t node) const;
   double across(Sides sides, const Eigen::VectorXd& of_parts, double else_Ld) const;
   void find_shift(const Integrals& integrals);
 
-  bool of_each_domain_;
+  bool of_each_domain_, of_each_vesicle_;
   double spacing_;
   std::vector<Part> parts_;
   std::vector<signed char> part_of_node_;

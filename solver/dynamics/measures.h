@@ -1,5 +1,7 @@
 #pragma once
 
+#include "grid/grid.h"
+
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -69,6 +71,19 @@ struct Measures {
   /// Of the step that led here, over Vesicle::energy_scale() before it; 0 where the energy fell or
   /// the step was driven. Nothing in what earlier versions stored.
   std::optional<double> energy_rise{};
+};
+
+/// What is known of one of several vesicles; a row of components.csv.
+struct ComponentMeasures {
+  double time = 0;
+  int component = 0; ///< its number, from 1
+  Vec3 center{};     ///< of its volume
+  double volume = 0, area = 0;
+  double reduced_volume = 0; ///< V / (4/3 pi Rs^3), Rs = sqrt(A / 4 pi)
+  double P = 0, sigma = 0;   ///< with phases, sigma is their mean by area
+  double K_multiplier = 0;
+  double int_KM = 0;             ///< int K_M dA
+  std::optional<double> area_Ld; ///< where the scene has domains
 };
 
 /// One term of an energy, named so as to complete "most of it is ...".

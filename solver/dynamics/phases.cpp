@@ -48,8 +48,9 @@ Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier
       line_(scene.line), sharp_line_{0, 0, scene.line.torsion_modulus, scene.line.normal_modulus},
       accurate_(SmearedStep::accurate(line_width * h_)),
       monotonic_(SmearedStep::monotonic(modulus_width * h_)),
-      of_moments_(SmearedStep::of_moments(moment_width * h_)), held_(scene.stretch.modulus > 0, h_),
-      fit_(scene.grid(), fourier), psi_(scene.grid()), current_(moduli(0)) {
+      of_moments_(SmearedStep::of_moments(moment_width * h_)),
+      held_(scene.stretch.modulus > 0, scene.area.of == Of::each, h_), fit_(scene.grid(), fourier),
+      psi_(scene.grid()), current_(moduli(0)) {
   std::vector<double> nodal(psi.size());
   for (std::size_t i = 0; i < psi.size(); i++) nodal[i] = saturated(psi[i]);
   std::ranges::copy(nodal, psi_.coefficients().begin());
@@ -76,12 +77,12 @@ double Phases::boundary_taper(double s) const {
   return u < 0 ? 1 : u > 1 ? 0 : 0.5 * (1 + std::cos(std::numbers::pi * u));
 }
 
-void Phases::locate(const LevelSet& phi, const NarrowBand& band) {
+void Phases::locate(const LevelSet& phi, const NarrowBand& band, const Components& vesicles) {
   psi_.update_nodal();
   boundary_.trace(phi, psi_, band);
   feet_.find(boundary_, phi, band, foot_reach * h_);
   DomainMap map = domains_of(band, psi_.nodal());
-  held_.find(band, map, boundary_);
+  held_.find(band, map, boundary_, vesicles);
   domains_ = std::move(map.domains);
   restore_distance(band);
 }
@@ -152,7 +153,8 @@ void Phases::restore_distance(const NarrowBand& band) {
   });
 }
 
-void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface) {
+void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
+                    const Components& vesicles) {
   const std::size_t n = surface.size(), own = surface.entry().size();
   const double reach =
       std::max({accurate_.half_width(), monotonic_.half_width(), of_moments_.half_width()});
@@ -179,7 +181,7 @@ void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface) {
   std::vector<int> boundary_point(n, -1);
   for (const StripPoint& s : strip_)
     if (s.foot.exists()) boundary_point[s.sample] = s.foot.at;
-  held_.sample(band.grid(), surface, boundary_point);
+  held_.sample(band.grid(), surface, boundary_point, vesicles);
   const std::vector<Taylor> psi = taylor(psi_, points);
   parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; m++) {
@@ -329,18 +331,20 @@ void Phases::add_flow(const StretchField& stretch) {
 }
 
 HeldAreas::Integrals Phases::integrate_held(const SurfaceGeometry& surface,
-                                            std::span<const double> variation) const {
+                                            std::span<const double> variation,
+                                            const Components& vesicles) const {
   std::vector<double> free(force_.size());
   for (std::size_t j = 0; j < free.size(); j++) free[j] = force_[j] / drag_ + flow_[j];
-  return held_.integrate(surface, share_, variation, boundary_, free, drag_);
+  return held_.integrate(surface, share_, variation, boundary_, free, drag_, vesicles);
 }
 
-PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface,
-                                 std::span<const double> variation) const {
+PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface, std::span<const double> variation,
+                                 const Samples& samples) const {
   return parallel_sum<PhaseIntegrals>(
-      surface.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      samples.count(surface), 4096, [&](std::size_t begin, std::size_t end) {
         PhaseIntegrals sum;
-        for (std::size_t i = begin; i < end; i++) {
+        for (std::size_t j = begin; j < end; j++) {
+          const std::size_t i = samples[j];
           const double w = surface.weight()[i], KM = surface.KM()[i], K = surface.K()[i],
                        q = share_[i];
           if (w == 0) continue;
@@ -358,16 +362,19 @@ PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface,
       });
 }
 
-double Phases::change_of_area(std::span<const double> psi, const SurfaceGeometry& surface) const {
-  double sum = 0;
+Eigen::VectorXd Phases::change_of_area(std::span<const double> psi, const SurfaceGeometry& surface,
+                                       const Components& vesicles) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(vesicles.count());
   for (const StripPoint& s : strip_)
-    sum -= surface.weight()[s.sample] * accurate_.at(s.psi).delta * psi[s.sample];
+    sum[vesicles.of_sample(std::size_t(s.sample))] -=
+        surface.weight()[s.sample] * accurate_.at(s.psi).delta * psi[s.sample];
   return sum;
 }
 
-double Phases::length(const SurfaceGeometry& surface) const {
-  double sum = 0;
-  for (const StripPoint& s : strip_) sum += surface.weight()[s.sample] * delta_[s.sample];
+Eigen::VectorXd Phases::length(const SurfaceGeometry& surface, const Components& vesicles) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(vesicles.count());
+  for (const StripPoint& s : strip_)
+    sum[vesicles.of_sample(std::size_t(s.sample))] += surface.weight()[s.sample] * delta_[s.sample];
   return sum;
 }
 

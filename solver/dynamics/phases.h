@@ -42,11 +42,11 @@ public:
   Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier);
 
   /// Finds the boundary on a membrane that moved, and brings psi back towards the distance from it.
-  void locate(const LevelSet& phi, const NarrowBand& band);
+  void locate(const LevelSet& phi, const NarrowBand& band, const Components& vesicles);
   /// The same after small changes, with the boundary that is known.
   void follow(const LevelSet& phi, const NarrowBand& band);
   /// Finds the phases of the samples: all that integrals of the phases need.
-  void sample(const NarrowBand& band, const SurfaceGeometry& surface);
+  void sample(const NarrowBand& band, const SurfaceGeometry& surface, const Components& vesicles);
   /// The variation F of the energy (a normal displacement u changes it by int F u dA) at the
   /// samples, and the force on the boundary. sample() up to date, fourth derivatives known.
   void find_forces(const LevelSet& phi, const SurfaceGeometry& surface, double time,
@@ -56,7 +56,8 @@ public:
   void add_flow(const StretchField& stretch);
 
   /// `variation` empty: without that integral.
-  PhaseIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation) const;
+  PhaseIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation,
+                           const Samples& samples) const;
   LineTerms line_terms(const PhaseIntegrals& integrals) const;
   double line_energy(const PhaseIntegrals& integrals) const { return line_terms(integrals).sum(); }
   double gaussian_energy(const PhaseIntegrals& integrals) const;
@@ -66,12 +67,15 @@ public:
   HeldAreas& held() { return held_; }
   const HeldAreas& held() const { return held_; }
   HeldAreas::Integrals integrate_held(const SurfaceGeometry& surface,
-                                      std::span<const double> variation) const;
+                                      std::span<const double> variation,
+                                      const Components& vesicles) const;
 
-  /// First-order change of the area of Ld where psi changes by so much at the samples.
-  double change_of_area(std::span<const double> psi, const SurfaceGeometry& surface) const;
-  /// Of the boundary.
-  double length(const SurfaceGeometry& surface) const;
+  /// First-order change of the area of Ld of each vesicle where psi changes by so much at the
+  /// samples.
+  Eigen::VectorXd change_of_area(std::span<const double> psi, const SurfaceGeometry& surface,
+                                 const Components& vesicles) const;
+  /// Of each vesicle's boundary.
+  Eigen::VectorXd length(const SurfaceGeometry& surface, const Components& vesicles) const;
 
   /// Share of Ld, 1 - H, at the samples.
   std::span<const double> share() const { return share_; }

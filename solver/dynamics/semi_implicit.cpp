@@ -109,6 +109,30 @@ void SemiImplicit::apply(LevelSet& phi, std::span<const double> factors, double 
   memory_.increment[0] += constant;
 }
 
+void SemiImplicit::apply(LevelSet& phi, const Extension& rates, double time) {
+  const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
+  auto step = [&](int ky, int kz, std::complex<double>* modes) {
+    const std::size_t at = fourier_.row_index(ky, kz);
+    SpectralRow over_time = row(ky, kz);
+    over_time.dt = time;
+    kernels().euler_row(over_time, numbers(modes));
+    for (int m = 0; m < fourier_.row_modes(); m++) memory_.increment[at + m] += modes[m];
+  };
+  fourier_.apply([&](int k, double* out) { rates.plane(k, out); }, step,
+                 [&](int k, const double* in) {
+                   for (std::size_t i = 0; i < plane; i++)
+                     memory_.nodal_increment[k * plane + i] += in[i];
+                 });
+  memory_.last_factor = 0;
+  double* c = phi.coefficients().data();
+  parallel_for(grid_.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      before_[i] = c[i];
+      c[i] += memory_.nodal_increment[i];
+    }
+  });
+}
+
 void SemiImplicit::rescale(double factor) {
   for (auto* modes : {&memory_.rate, &memory_.increment})
     for (auto& m : *modes) m *= factor;

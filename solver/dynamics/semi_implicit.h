@@ -51,6 +51,10 @@ public:
   /// step remembers.
   void apply(LevelSet& phi, std::span<const double> factors, double constant);
 
+  /// The same with an increment of its own, smoothed as responses are, in place of factors and a
+  /// constant: that of nodal rates over a time.
+  void apply(LevelSet& phi, const Extension& rates, double time);
+
   /// Coefficients at the nodes: of the step under way from predict() on, of the last step after
   /// apply().
   std::span<const double> increment() const { return memory_.nodal_increment; }

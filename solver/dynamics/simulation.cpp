@@ -84,6 +84,7 @@ Frame Simulation::frame() const {
 
 void Simulation::step(double latest) {
   if (!why_not_on_.empty()) throw RunError(why_not_on_);
+  vesicle_.keep_apart(time());
   if (vesicle_.set_out(time())) response_dt_ = 0; // there is one more
   for (;;) {
     double then = time() + choose_dt(latest);
@@ -119,6 +120,7 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
   }
   if (psi_stepper_) predict_boundary(dt);
   if (c_stepper_) step_stretch(dt);
+  holdings_ = vesicle_.holdings();
   apply_constrained(then);
   error_ = std::max(step_error(), boundary_error());
   last_dt_ = dt;
@@ -137,7 +139,7 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
     throw RunError(message);
   }
   check(now);
-  excess_ = memory * excess_ + excess;
+  excess_ = excess_.cols() == excess.cols() ? Quantities(memory * excess_ + excess) : excess;
   steps_++;
   measures_ = now;
   broken_ = false;
@@ -153,25 +155,26 @@ void Simulation::take_back(const Failure& failure, double dt) {
   go_back();
 }
 
-/// d phi / dt = -v |grad phi| for a velocity v at the samples, carried into the box.
-template <class Velocity>
-void Simulation::extend_rates(Velocity&& v) {
+/// Carries rates at the samples into the box.
+template <class Rate>
+void Simulation::extend(Rate&& rate) {
   const SurfaceGeometry& surface = vesicle_.surface();
   work_.resize(vesicle_.band().size());
-  for (std::size_t i = 0; i < surface.entry().size(); i++)
-    work_[surface.entry()[i]] = -v(i) * surface.grad()[i];
+  for (std::size_t i = 0; i < surface.entry().size(); i++) work_[surface.entry()[i]] = rate(i);
   vesicle_.extension().complete(0, work_);
   vesicle_.extension().fill(vesicle_.band(), work_);
+}
+
+/// d phi / dt = -v |grad phi| for a velocity v at the samples.
+template <class Velocity>
+void Simulation::extend_rates(Velocity&& v) {
+  extend([&](std::size_t i) { return -v(i) * vesicle_.surface().grad()[i]; });
 }
 
 void Simulation::step_stretch(double dt) {
   StretchField& stretch = *vesicle_.stretch();
   const SurfaceGeometry& surface = vesicle_.surface();
-  work_.resize(vesicle_.band().size());
-  for (std::size_t i = 0; i < surface.entry().size(); i++)
-    work_[surface.entry()[i]] = stretch.rate(i, surface.KM()[i], vesicle_.velocity(i));
-  vesicle_.extension().complete(0, work_);
-  vesicle_.extension().fill(vesicle_.band(), work_);
+  extend([&](std::size_t i) { return stretch.rate(i, surface.KM()[i], vesicle_.velocity(i)); });
   c_stepper_->predict(vesicle_.extension(), dt, {0, stretch.law().diffusivity()});
   c_stepper_->apply(stretch.c(), {}, 0);
   stretch.extend(vesicle_.band(), surface, vesicle_.extension());
@@ -185,29 +188,62 @@ void Simulation::step_stretch(double dt) {
 void Simulation::apply_constrained(double time) {
   const SurfaceGeometry& surface = vesicle_.surface();
   const Constraints& constraints = vesicle_.constraints();
+  const Components& vesicles = vesicle_.components();
   Phases* phases = vesicle_.phases();
   const int second = second_response();
+  const Eigen::Index n = vesicles.count();
   std::vector<double> moved = on_membrane(stepper_.increment());
   auto change_by = [&](const std::vector<double>& along) {
-    return change_from(
+    return changes_from(
         vesicle_.moments([&](std::size_t i) { return -along[i] / surface.grad()[i]; }));
   };
   Quantities predicted = change_by(moved);
   if (phases)
-    predicted[3] += phases->change_of_area(on_membrane(psi_stepper_->increment()), surface);
-  Eigen::Matrix4d effect = Eigen::Matrix4d::Zero();
-  effect.col(0) =
-      change_from(vesicle_.moments([&](std::size_t i) { return -1 / surface.grad()[i]; }));
-  effect.col(1) = change_by(on_membrane(stepper_.response(0)));
-  if (second) effect.col(second) = change_by(on_membrane(stepper_.response(1)));
-  if (phases) effect(3, 3) -= response_dt_ * phases->length(surface) / phases->drag();
-  const Eigen::Vector4d factors = constraints.combination(
-      effect, constraints.target(time) - quantities(vesicle_.integrals()) - excess_ - predicted,
-      vesicle_.integrals());
+    predicted.row(3) +=
+        phases->change_of_area(on_membrane(psi_stepper_->increment()), surface, vesicles);
+  Eigen::MatrixXd effect = Eigen::MatrixXd::Zero(4 * n, 4 * n);
+  auto set_effect = [&](int direction, const Quantities& changes) {
+    for (Eigen::Index k = 0; k < n; k++)
+      effect.block<4, 1>(4 * k, 4 * k + direction) = changes.col(k);
+  };
+  set_effect(0,
+             changes_from(vesicle_.moments([&](std::size_t i) { return -1 / surface.grad()[i]; })));
+  set_effect(1, change_by(on_membrane(stepper_.response(0))));
+  if (second) set_effect(second, change_by(on_membrane(stepper_.response(1))));
+  if (phases) {
+    const Eigen::VectorXd lengths = phases->length(surface, vesicles);
+    for (Eigen::Index k = 0; k < n; k++)
+      effect(4 * k + 3, 4 * k + 3) -= response_dt_ * lengths[k] / phases->drag();
+  }
+  if (excess_.cols() != n) excess_.setZero(4, n);
+  const Eigen::Matrix4Xd factors = constraints.combination(
+      effect,
+      constraints.target(time) - quantities(vesicle_.integrals_of_each()) - excess_ - predicted,
+      vesicle_.integrals_of_each());
   if (!factors.allFinite()) throw RunError("the step is not finite");
-  const double along[2] = {factors[1], second ? factors[second] : 0};
-  stepper_.apply(vesicle_.phi(), along, factors[0]);
-  if (phases) psi_stepper_->apply(phases->psi(), {}, response_dt_ * factors[3] / phases->drag());
+  if (n > 1) return apply_to_each(factors);
+  const double along[2] = {factors(1), second ? factors(second) : 0};
+  stepper_.apply(vesicle_.phi(), along, factors(0));
+  if (phases) psi_stepper_->apply(phases->psi(), {}, response_dt_ * factors(3) / phases->drag());
+}
+
+/// The same factors would move the other vesicles: each has its own rates, which the step smooths
+/// where vesicles are near.
+void Simulation::apply_to_each(const Eigen::Matrix4Xd& factors) {
+  const SurfaceGeometry& surface = vesicle_.surface();
+  const Components& vesicles = vesicle_.components();
+  const int second = second_response();
+  extend([&](std::size_t i) {
+    const auto f = factors.col(vesicles.of_sample(i));
+    const double v =
+        f[1] * surface.KM()[i] + (second ? f[second] * vesicle_.direction(second, i) : 0);
+    return f[0] / response_dt_ - v * surface.grad()[i];
+  });
+  stepper_.apply(vesicle_.phi(), vesicle_.extension(), response_dt_);
+  if (!psi_stepper_) return;
+  Phases& phases = *vesicle_.phases();
+  extend([&](std::size_t i) { return factors(3, vesicles.of_sample(i)) / phases.drag(); });
+  psi_stepper_->apply(phases.psi(), vesicle_.extension(), response_dt_);
 }
 
 /// A field of coefficients at the samples.
@@ -243,7 +279,7 @@ void Simulation::predict_boundary(double dt) {
 
 /// After phi was changed by other means than a step. Returns the area before it was put back.
 double Simulation::restart() {
-  excess_.setZero();
+  excess_.setZero(4, 1);
   stepper_.restart();
   if (psi_stepper_) psi_stepper_->restart();
   if (c_stepper_) c_stepper_->restart();
@@ -257,6 +293,7 @@ void Simulation::go_back() {
     std::ranges::copy(psi_stepper_->before(), vesicle_.phases()->psi().coefficients().begin());
   if (c_stepper_)
     std::ranges::copy(c_stepper_->before(), vesicle_.stretch()->c().coefficients().begin());
+  vesicle_.restore(holdings_);
   broken_ = false;
   restart();
   last_dt_ *= 0.1;

@@ -20,7 +20,7 @@ struct SimulationState {
   Vesicle::State vesicle;
   SemiImplicit::Memory stepper;
   std::optional<SemiImplicit::Memory> psi_stepper, c_stepper;
-  Quantities excess = Quantities::Zero();
+  Array<double> excess; ///< of each vesicle, four numbers each
   double error = 0, last_dt = 0, response_dt = 0;
   long steps = 0, renormalised = 0, next_parting = 0, next_search = 0, failures = 0;
   double failed_before = 0;
@@ -61,6 +61,8 @@ public:
   /// The step that the error control would take next.
   double next_dt() const;
   const Measures& measures() const { return measures_; }
+  /// Of each vesicle; of one, what is held by all together counts as its own.
+  std::vector<ComponentMeasures> component_measures() const;
   /// What happened so far, in the order of time.
   std::span<const Event> events() const { return events_; }
   /// A constraint is still being led to a target, or will be.
@@ -84,6 +86,9 @@ private:
   void predict_boundary(double dt);
   void step_stretch(double dt);
   void apply_constrained(double time);
+  void apply_to_each(const Eigen::Matrix4Xd& factors);
+  template <class Rate>
+  void extend(Rate&& rate);
   template <class Velocity>
   void extend_rates(Velocity&& v);
   std::vector<double> on_membrane(std::span<const double> coefficients) const;
@@ -130,11 +135,12 @@ private:
   std::vector<double> work_;                    // a number a band entry
   std::vector<CriticalPoint> inside_, outside_; // near the membrane
   std::string why_not_on_;                      // the next step cannot be made
-  bool broken_ = false;                    // the last step failed: the state is the one before it
-  Quantities excess_ = Quantities::Zero(); // of a step beyond first order, as last seen
-  double error_ = 0;                       // of the last step
-  double last_dt_ = 0;                     // 0: none yet
-  double response_dt_ = 0;                 // the step that the responses were found for
+  bool broken_ = false; // the last step failed: the state is the one before it
+  Quantities excess_ = Quantities::Zero(4, 1); // of a step beyond first order, as last seen
+  Vesicle::Holdings holdings_;                 // before the last step
+  double error_ = 0;                           // of the last step
+  double last_dt_ = 0;                         // 0: none yet
+  double response_dt_ = 0;                     // the step that the responses were found for
   long steps_ = 0, renormalised_ = 0, next_parting_ = 0, next_search_ = 0;
   long failures_ = 0; // of steps from before failed_before_
   double failed_before_ = 0;

@@ -30,6 +30,12 @@ Vec3 Simulation::in_space(Vec3 place) const {
   return place;
 }
 
+std::vector<ComponentMeasures> Simulation::component_measures() const {
+  std::vector<ComponentMeasures> all = vesicle_.component_measures(time());
+  for (ComponentMeasures& m : all) m.center = in_space(m.center);
+  return all;
+}
+
 void Simulation::note(Event event) {
   event.time = time();
   event.place = in_space(event.place);
@@ -234,8 +240,10 @@ bool Simulation::part_at(const Closing& place) {
   event.size = place.at.radius;
   const Array<double> whole(vesicle_.phi().coefficients().begin(),
                             vesicle_.phi().coefficients().end());
+  const Vesicle::Holdings holdings = vesicle_.holdings();
   auto whole_again = [&] {
     std::ranges::copy(whole, vesicle_.phi().coefficients().begin());
+    vesicle_.restore(holdings);
     restart();
     return false;
   };
@@ -300,16 +308,10 @@ void Simulation::recentre_if_needed() {
 }
 
 void Simulation::move_box(const std::array<int, 3>& cells) {
-  shift(grid(), cells, vesicle_.phi().coefficients());
+  vesicle_.shift(cells);
   stepper_.shift(cells);
-  if (psi_stepper_) {
-    shift(grid(), cells, vesicle_.phases()->psi().coefficients());
-    psi_stepper_->shift(cells);
-  }
-  if (c_stepper_) {
-    shift(grid(), cells, vesicle_.stretch()->c().coefficients());
-    c_stepper_->shift(cells);
-  }
+  if (psi_stepper_) psi_stepper_->shift(cells);
+  if (c_stepper_) c_stepper_->shift(cells);
   for (int d = 0; d < 3; d++) cells_[d] += cells[d];
   vesicle_.measure_anew(time());
 }

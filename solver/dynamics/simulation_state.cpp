@@ -44,6 +44,18 @@ void check_fits(const SemiImplicit::Memory& memory, const SemiImplicit::Memory& 
   }
 }
 
+/// Each has its share of what is held, and a node at least.
+void check_vesicles(const Vesicle::State& s, const Grid& grid) {
+  const std::size_t numbers = s.constraints.share.size();
+  const int count = int(numbers / 4);
+  if (count == 0 || numbers % 4 != 0) refuse("the number of vesicles");
+  check_size("the list of groups", s.constraints.group.size(), std::size_t(count));
+  check_size("the list of vesicles", s.vesicle_of_node.size(), count == 1 ? 0 : grid.size());
+  if (count == 1) return;
+  const auto [low, high] = std::ranges::minmax(s.vesicle_of_node);
+  if (low < -1 || high != count - 1) refuse("the number of vesicles");
+}
+
 void check_fits(const SimulationState& s, const Scene& scene) {
   const Grid grid = scene.grid();
   const bool phases = scene.has_phases(), stretch = scene.stretch.modulus > 0;
@@ -55,6 +67,8 @@ void check_fits(const SimulationState& s, const Scene& scene) {
   if (stretch != s.c_stepper.has_value() || stretch != s.measures.stretch.has_value())
     refuse("the stretch modulus");
   if (s.steps < 1) refuse("it has made no step");
+  check_vesicles(s.vesicle, grid);
+  if (s.excess.empty() || s.excess.size() % 4 != 0) refuse("the number of vesicles");
   check_fits(s.vesicle.band, grid);
 }
 
@@ -77,11 +91,12 @@ Simulation::Simulation(const Scene& scene, const SimulationState& s)
     : contact_(scene.contact), control_(control_of(scene)), fourier_(scene.grid()),
       vesicle_(scene, fitting(s, scene).vesicle, s.measures.time, fourier_), gauge_(scene.grid()),
       stepper_(scene.grid(), fourier_, responses_of(scene)), inside_(s.inside), outside_(s.outside),
-      why_not_on_(s.why_not_on), excess_(s.excess), error_(s.error), last_dt_(s.last_dt),
-      response_dt_(s.response_dt), steps_(s.steps), renormalised_(s.renormalised),
-      next_parting_(s.next_parting), next_search_(s.next_search), failures_(s.failures),
-      failed_before_(s.failed_before), driven_(s.driven), cells_(s.cells), topology_(s.topology),
-      domains_(s.domains), measures_(s.measures), events_(s.events) {
+      why_not_on_(s.why_not_on),
+      excess_(Eigen::Map<const Quantities>(s.excess.data(), 4, Eigen::Index(s.excess.size() / 4))),
+      error_(s.error), last_dt_(s.last_dt), response_dt_(s.response_dt), steps_(s.steps),
+      renormalised_(s.renormalised), next_parting_(s.next_parting), next_search_(s.next_search),
+      failures_(s.failures), failed_before_(s.failed_before), driven_(s.driven), cells_(s.cells),
+      topology_(s.topology), domains_(s.domains), measures_(s.measures), events_(s.events) {
   check_fits(s.stepper, stepper_.memory());
   stepper_.remember(s.stepper);
   restore(psi_stepper_, s.psi_stepper, scene.grid(), fourier_);
@@ -95,7 +110,7 @@ SimulationState Simulation::state() const {
                     .stepper = stepper_.memory(),
                     .psi_stepper = {},
                     .c_stepper = {},
-                    .excess = excess_,
+                    .excess = {excess_.data(), excess_.data() + excess_.size()},
                     .error = error_,
                     .last_dt = last_dt_,
                     .response_dt = response_dt_,

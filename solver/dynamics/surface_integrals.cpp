@@ -14,12 +14,13 @@ SurfaceIntegrals& SurfaceIntegrals::operator+=(const SurfaceIntegrals& other) {
 }
 
 SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending,
-                           std::span<const double> variation) {
+                           std::span<const double> variation, const Samples& samples) {
   return parallel_sum<SurfaceIntegrals>(
-      surface.size(), 2048, [&](std::size_t begin, std::size_t end) {
+      samples.count(surface), 2048, [&](std::size_t begin, std::size_t end) {
         SurfaceIntegrals sum;
         double s[6] = {}, f[3] = {};
-        for (std::size_t i = begin; i < end; i++) {
+        for (std::size_t j = begin; j < end; j++) {
+          const std::size_t i = samples[j];
           const double w = surface.weight()[i], KM = surface.KM()[i], K = surface.K()[i];
           if (w == 0) continue;
           const Vec3 p = surface.point(i), n = surface.normal(i);

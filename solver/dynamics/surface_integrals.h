@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <span>
+
 namespace lamella {
 
 /// Integrals over the membrane that measures and multipliers are made of. The four functions 1,
@@ -24,8 +26,23 @@ struct SurfaceIntegrals {
   SurfaceIntegrals& operator+=(const SurfaceIntegrals& other);
 };
 
+/// The samples of a membrane, or those of a part of it.
+class Samples {
+public:
+  Samples() = default;
+  explicit Samples(std::span<const int> some) : some_(some), all_(false) {}
+  std::size_t count(const SurfaceGeometry& surface) const {
+    return all_ ? surface.size() : some_.size();
+  }
+  std::size_t operator[](std::size_t j) const { return all_ ? j : std::size_t(some_[j]); }
+
+private:
+  std::span<const int> some_;
+  bool all_ = true;
+};
+
 /// `variation`: F at the samples; empty leaves those integrals 0.
 SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending,
-                           std::span<const double> variation);
+                           std::span<const double> variation, const Samples& samples = {});
 
 } // namespace lamella

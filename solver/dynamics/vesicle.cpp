@@ -29,6 +29,17 @@ constexpr double longest_displacement = 0.3;
 // their normals are no longer the nearest ones.)
 constexpr double far_displacement = 0.02;
 
+bool keeps_apart(const Scene& scene) {
+  return scene.area.of == Of::each || scene.volume.of == Of::each;
+}
+
+/// Of what each vesicle has a number of its own.
+double mean(const Eigen::MatrixXd& number, const Eigen::MatrixXd& weight) {
+  if (number.size() == 1) return number(0);
+  const double sum = weight.sum();
+  return sum == 0 ? 0 : number.cwiseProduct(weight).sum() / sum;
+}
+
 double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 } // namespace
 
@@ -38,7 +49,8 @@ Vesicle::Vesicle(const Scene& scene)
       film_{scene.contact.disjoining_pressure, scene.contact.disjoining_range}, constraints_(scene),
       phi_(scene.grid()), band_(scene.grid(), band_half_width), extension_(scene.grid()),
       surface_(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside(),
-               scene.has_phases()) {}
+               scene.has_phases()),
+      components_(scene.grid(), keeps_apart(scene)) {}
 
 Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Vesicle(scene) {
   std::ranges::copy(start.phi, phi_.coefficients().begin());
@@ -47,14 +59,15 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Ves
   if (scene.stretch.modulus > 0)
     stretch_.emplace(scene.stretch.modulus, scene.grid(), start.c, fourier);
   locate();
+  components_.settle();
   surface_.curvatures(phi_, band_);
   integrate_all(false);
-  Quantities begin = quantities(integrals_);
-  if (start.exact) {
-    begin[0] = start.exact->volume;
-    begin[1] = start.exact->area;
+  Quantities begin = quantities(of_each_);
+  if (start.exact && begin.cols() == 1) {
+    begin(0) = start.exact->volume;
+    begin(1) = start.exact->area;
   }
-  if (phases_ && scene.volume.constraint == Constraint::ramped) begin[0] *= 1 - leave_sphere();
+  if (phases_ && scene.volume.constraint == Constraint::ramped) begin.row(0) *= 1 - leave_sphere();
   // Volume and area first: only then is the area difference that of the shape.
   Scene without = scene;
   without.area_difference = {};
@@ -62,12 +75,12 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Ves
   constraints_.begin(begin);
   set_lengths(scene);
   measure(0);
-  if (drift(0) > worst_drift && drift(0) < start_drift) begin = quantities(integrals_); // a sphere
-  begin[2] = integrals_.int_KM();
+  if (drift(0) > worst_drift && drift(0) < start_drift) begin = quantities(of_each_); // a sphere
+  begin.row(2) = quantities(of_each_).row(2);
   constraints_ = Constraints(scene);
   constraints_.begin(begin);
   set_lengths(scene);
-  const Quantities corrected = quantities(integrals_);
+  const Quantities corrected = quantities(of_each_);
   measure_forces(0);
   if (phases_) set_quantities(corrected);
 }
@@ -75,6 +88,8 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Ves
 Vesicle::State Vesicle::state() const {
   State state = origin_;
   state.constraints = constraints_.state();
+  state.constraints.share = origin_.constraints.share;
+  state.constraints.group = origin_.constraints.group;
   if (!stretch_) return state;
   const std::span<const double> c = stretch_->c().coefficients();
   state.c.assign(c.begin(), c.end());
@@ -95,9 +110,21 @@ Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& f
     stretch_->restore(state.c, state.lipid);
   }
   band_.restore(state.band);
-  constraints_.restore(state.constraints);
+  restore({state.vesicle_of_node, state.constraints});
   set_lengths(scene);
   measure(time);
+}
+
+void Vesicle::restore(const Holdings& holdings) {
+  components_.restore(holdings.vesicle_of_node);
+  constraints_.restore(holdings.constraints);
+}
+
+void Vesicle::shift(const std::array<int, 3>& cells) {
+  lamella::shift(grid(), cells, phi_.coefficients());
+  if (phases_) lamella::shift(grid(), cells, phases_->psi().coefficients());
+  if (stretch_) lamella::shift(grid(), cells, stretch_->c().coefficients());
+  components_.shift(cells);
 }
 
 /// Those that are left to the size of the vesicle.
@@ -112,6 +139,8 @@ void Vesicle::note_origin() {
   const std::span<const double> phi = phi_.coefficients();
   origin_.phi.assign(phi.begin(), phi.end());
   band_.store(origin_.band);
+  origin_.vesicle_of_node = components_.settled();
+  origin_.constraints = constraints_.state();
   if (!phases_) return;
   const std::span<const double> psi = phases_->psi().coefficients();
   origin_.psi.assign(psi.begin(), psi.end());
@@ -150,7 +179,9 @@ Quantities Vesicle::measure(double time) {
   locate();
   surface_.curvatures(phi_, band_);
   integrate_all(false);
-  const Quantities excess = quantities(integrals_) - constraints_.target(time);
+  if (!components_.succession().is_unchanged()) constraints_.hand_on(components_.succession());
+  components_.settle();
+  const Quantities excess = quantities(of_each_) - constraints_.target(time);
   lead_to_constraints(time);
   return excess;
 }
@@ -167,7 +198,9 @@ double Vesicle::measure_anew(double time) {
 
 void Vesicle::locate() {
   locate_membrane();
-  if (phases_) phases_->locate(phi_, band_);
+  components_.follow(phi_.nodal());
+  components_.find_entries(band_);
+  if (phases_) phases_->locate(phi_, band_, components_);
 }
 
 void Vesicle::locate_membrane() {
@@ -178,35 +211,38 @@ void Vesicle::locate_membrane() {
   extension_.prepare(band_, surface_.sampled());
 }
 
-double Vesicle::drift(double time) const {
-  return constraints_.drift(quantities(integrals_), time);
-}
+double Vesicle::drift(double time) const { return constraints_.drift(quantities(of_each_), time); }
 
 /// Displaces the membrane by combinations of 1, K_M, K, q K_M until it has the quantities that are
 /// held.
 void Vesicle::lead_to_constraints(double time) {
-  delicate_ = constraints_.is_delicate(integrals_);
+  delicate_ = constraints_.is_delicate(of_each_);
   const double negligible = delicate_ ? worst_drift : negligible_drift; // it would go a long way
   if (drift(time) < negligible) return measure_forces(time);
   set_directions();
-  const Eigen::Matrix4d effect = effect_of_directions();
+  const Eigen::MatrixXd effect = effect_of_directions();
   for (int pass = 0; pass == 0 || (pass < most_corrections && drift(time) > worst_drift); pass++) {
-    const Quantities now = quantities(integrals_);
-    const Eigen::Vector4d u =
-        constraints_.combination(effect, constraints_.target(time) - now, integrals_);
+    const Quantities now = quantities(of_each_);
+    const Eigen::Matrix4Xd u =
+        constraints_.combination(effect, constraints_.target(time) - now, of_each_);
     const bool anew = displace(u);
     measure_forces(time);
-    if (phases_ && !anew) return set_quantities(now + effect * u);
+    if (phases_ && !anew)
+      return set_quantities(now + (effect * u.reshaped()).reshaped(4, now.cols()));
   }
 }
 
 /// What a small displacement leads to is known better than quadrature tells from points that are no
 /// longer the nearest ones.
 void Vesicle::set_quantities(const Quantities& q) {
-  integrals_.volume = q[0];
-  integrals_.gram(0, 0) = q[1];
-  integrals_.gram(0, 1) = integrals_.gram(1, 0) = q[2];
-  integrals_.area_Ld = q[3];
+  auto set = [](SurfaceIntegrals& of, const Eigen::Vector4d& to) {
+    of.volume = to[0];
+    of.gram(0, 0) = to[1];
+    of.gram(0, 1) = of.gram(1, 0) = to[2];
+    of.area_Ld = to[3];
+  };
+  for (Eigen::Index k = 0; k < q.cols(); k++) set(of_each_[std::size_t(k)], q.col(k));
+  set(integrals_, q.rowwise().sum());
 }
 
 double Vesicle::direction(int m, std::size_t i) const {
@@ -249,64 +285,92 @@ void Vesicle::evaluate_on_membrane(std::span<const double> change, std::vector<d
   for (std::size_t s = 0; s < band_.size(); s++) field_[band_.node()[s]] = 0;
 }
 
-Eigen::Matrix4d Vesicle::effect_of_directions() const {
-  Eigen::Matrix4d effect = Eigen::Matrix4d::Zero();
+Eigen::MatrixXd Vesicle::effect_of_directions() const {
+  const Eigen::Index n = components_.count();
+  Eigen::MatrixXd effect = Eigen::MatrixXd::Zero(4 * n, 4 * n);
   for (const int m : constraints_.held()) {
     const std::vector<double>& moves = directions_[m].moves;
-    effect.col(m) = change_from(moments([&](std::size_t i) { return moves[i]; }));
+    const Quantities changes = changes_from(moments([&](std::size_t i) { return moves[i]; }));
+    for (Eigen::Index k = 0; k < n; k++) effect.block<4, 1>(4 * k, 4 * k + m) = changes.col(k);
   }
-  if (phases_) effect(with_boundary, with_boundary) -= phase_integrals_.length / phases_->drag();
+  if (phases_)
+    for (Eigen::Index k = 0; k < n; k++)
+      effect(4 * k + with_boundary, 4 * k + with_boundary) -= lengths_[k] / phases_->drag();
   return effect;
 }
 
 /// A combination of the directions, scaled down to the distance up to which it means something.
 /// True where it was so far that all is found anew.
-bool Vesicle::displace(const Eigen::Vector4d& u) {
+bool Vesicle::displace(const Eigen::Matrix4Xd& u) {
   const double longest = longest_displacement * grid().spacing;
   std::vector<double>& moves = work_;
   moves.assign(surface_.size(), 0);
   double greatest = 0;
   for (std::size_t i = 0; i < surface_.size(); i++) {
-    for (const int m : constraints_.held()) moves[i] += u[m] * directions_[m].moves[i];
+    const int k = components_.of_sample(i);
+    for (const int m : constraints_.held()) moves[i] += u(m, k) * directions_[m].moves[i];
     greatest = std::max(greatest, std::abs(moves[i]));
   }
-  const double along = phases_ ? u[with_boundary] / phases_->drag() : 0;
-  greatest = std::max(greatest, std::abs(along));
+  const Eigen::VectorXd along =
+      phases_ ? Eigen::VectorXd(u.row(with_boundary) / phases_->drag()) : Eigen::VectorXd();
+  for (const double x : along) greatest = std::max(greatest, std::abs(x));
   const double scale = greatest > longest ? longest / greatest : 1;
   for (std::size_t i = 0; i < surface_.size(); i++) surface_.displace(i, scale * moves[i], band_);
   std::span<double> c = phi_.coefficients();
   for (std::size_t s = 0; s < band_.size(); s++) {
     double change = 0;
-    for (const int m : constraints_.held()) change += u[m] * directions_[m].nodal[s];
+    const int k = components_.of_entry(s);
+    for (const int m : constraints_.held()) change += u(m, k) * directions_[m].nodal[s];
     c[band_.node()[s]] -= scale * change;
   }
-  if (phases_)
-    for (double& p : phases_->psi().coefficients()) p += scale * along;
+  if (phases_) move_boundaries(scale * along);
   if (!delicate_ && greatest < far_displacement * grid().spacing) return false;
   locate_membrane();
+  components_.find_entries(band_);
   surface_.curvatures(phi_, band_);
+  components_.find_samples(surface_);
   if (phases_) {
     phases_->follow(phi_, band_);
-    phases_->sample(band_, surface_);
+    phases_->sample(band_, surface_, components_);
   }
   set_directions();
   return true;
+}
+
+/// By so much along n on each vesicle.
+void Vesicle::move_boundaries(const Eigen::VectorXd& along) {
+  const std::span<double> psi = phases_->psi().coefficients();
+  if (along.size() == 1)
+    for (double& p : psi) p += along[0];
+  else
+    for (std::size_t s = 0; s < band_.size(); s++)
+      psi[band_.node()[s]] += band_.taper()[s] * along[components_.of_entry(s)];
 }
 
 /// `with_forces`: the variation is known.
 void Vesicle::integrate_all(bool with_forces) {
   const std::span<const double> variation =
       with_forces ? std::span<const double>(variation_) : std::span<const double>();
-  integrals_ = integrate(surface_, bending_, variation);
-  if (!phases_) return;
-  if (!with_forces) phases_->sample(band_, surface_);
-  phase_integrals_ = phases_->integrate(surface_, variation);
-  const PhaseIntegrals& p = phase_integrals_;
-  integrals_.area_Ld = p.area_Ld;
-  integrals_.gram.row(with_boundary) = p.gram.transpose();
-  integrals_.gram.col(with_boundary) = p.gram;
-  if (!with_forces) return;
-  integrals_.energy = p.bending_Ld + p.bending_Lo;
+  components_.find_samples(surface_);
+  if (phases_ && !with_forces) phases_->sample(band_, surface_, components_);
+  of_each_.clear();
+  integrals_ = {};
+  phase_integrals_ = {};
+  lengths_.setZero(components_.count());
+  for (int k = 0; k < components_.count(); k++) {
+    const Samples samples = components_.samples(k);
+    SurfaceIntegrals& of = of_each_.emplace_back(integrate(surface_, bending_, variation, samples));
+    if (phases_) {
+      const PhaseIntegrals p = phases_->integrate(surface_, variation, samples);
+      of.area_Ld = p.area_Ld;
+      of.gram.row(with_boundary) = p.gram.transpose();
+      of.gram.col(with_boundary) = p.gram;
+      if (with_forces) of.energy = p.bending_Ld + p.bending_Lo;
+      lengths_[k] = p.length;
+      phase_integrals_ += p;
+    }
+    integrals_ += of;
+  }
 }
 
 void Vesicle::measure_forces(double time) {
@@ -331,6 +395,10 @@ void Vesicle::measure_forces(double time) {
   }
   if (film_.exists()) push_films_apart();
   integrate_all(true);
+  find_velocities(time);
+}
+
+void Vesicle::find_velocities(double time) {
   find_multipliers(time);
   max_speed_ = 0;
   for (std::size_t i = 0; i < surface_.size(); i++)
@@ -341,23 +409,28 @@ void Vesicle::measure_forces(double time) {
 /// the mean.
 void Vesicle::find_multipliers(double time) {
   const Quantities rate = constraints_.rate(time);
-  const Eigen::Index n = phases_ ? Eigen::Index(phases_->held().size()) : 0;
-  Eigen::MatrixXd gram(3 + n, 3 + n);
-  Eigen::VectorXd variation(3 + n);
-  gram.topLeftCorner(3, 3) = integrals_.gram.topLeftCorner<3, 3>();
-  variation.head(3) = integrals_.variation;
-  if (!phases_) {
-    multipliers_.head(3) = constraints_.multipliers(gram, variation, rate);
-    return;
+  const int vesicles = components_.count();
+  const Eigen::Index surface = 3 * vesicles, n = phases_ ? Eigen::Index(phases_->held().size()) : 0;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(surface + n, surface + n);
+  Eigen::VectorXd variation(surface + n);
+  for (int k = 0; k < vesicles; k++) {
+    gram.block<3, 3>(3 * k, 3 * k) = of_each_[k].gram.topLeftCorner<3, 3>();
+    variation.segment<3>(3 * k) = of_each_[k].variation;
   }
-  const HeldAreas::Integrals held = phases_->integrate_held(surface_, variation_);
-  gram.bottomLeftCorner(n, 3) = held.with_surface;
-  gram.topRightCorner(3, n) = held.with_surface.transpose();
-  gram.bottomRightCorner(n, n) = held.gram;
-  variation.tail(n) = held.variation;
+  HeldAreas::Integrals held;
+  if (phases_) {
+    held = phases_->integrate_held(surface_, variation_, components_);
+    gram.bottomLeftCorner(n, surface) = held.with_surface;
+    gram.topRightCorner(surface, n) = held.with_surface.transpose();
+    gram.bottomRightCorner(n, n) = held.gram;
+    variation.tail(n) = held.variation;
+  }
   const Eigen::VectorXd m = constraints_.multipliers(gram, variation, rate);
+  multipliers_ = Multipliers::Zero(4, vesicles);
+  multipliers_.topRows<3>() = m.head(surface).reshaped(3, vesicles);
+  if (!phases_) return;
   phases_->held().set_tensions(m.tail(n), held, phases_->share(), integrals_.area());
-  multipliers_ << m.head(3), phases_->held().mean_Ld() - phases_->held().mean_Lo();
+  multipliers_.row(3).setConstant(phases_->held().mean_Ld() - phases_->held().mean_Lo());
 }
 
 /// Adds the disjoining pressure to the variation.
@@ -372,8 +445,8 @@ void Vesicle::push_films_apart() {
 }
 
 double Vesicle::velocity(std::size_t i) const {
-  return -variation_[i] + multipliers_[0] + multipliers_[1] * surface_.KM()[i] +
-         multipliers_[2] * surface_.K()[i] +
+  const auto m = multipliers_.col(components_.of_sample(i));
+  return -variation_[i] + m[0] + m[1] * surface_.KM()[i] + m[2] * surface_.K()[i] +
          (phases_ ? phases_->held().tension()[i] * surface_.KM()[i] : 0);
 }
 
@@ -388,7 +461,7 @@ double Vesicle::stiffness() const {
 }
 
 double Vesicle::greatest_tension() const {
-  return multipliers_[1] + (phases_ ? phases_->held().greatest() : 0);
+  return multipliers_.row(1).maxCoeff() + (phases_ ? phases_->held().greatest() : 0);
 }
 
 double Vesicle::curvature_tension() const {
@@ -399,8 +472,12 @@ double Vesicle::curvature_tension() const {
                   of(lo.bending_modulus, lo.spontaneous_curvature));
 }
 
+void Vesicle::keep_apart(double time) {
+  if (constraints_.keep_apart(quantities(of_each_))) find_velocities(time);
+}
+
 bool Vesicle::set_out(double time) {
-  if (!constraints_.set_out(time, quantities(integrals_))) return false;
+  if (!constraints_.set_out(time, quantities(of_each_))) return false;
   measure_forces(time);
   return true;
 }
@@ -428,7 +505,7 @@ double Vesicle::energy() const {
       phases_ ? phases_->line_energy(phase_integrals_) + phases_->gaussian_energy(phase_integrals_)
               : 0;
   const double stretching = stretch_ ? stretch_->energy(surface_) : 0;
-  const Quantities now = quantities(integrals_);
+  const Quantities now = quantities(of_each_);
   return integrals_.energy + interfacial + stretching + film_energy_ +
          constraints_.potential(0, now).value_or(0) + constraints_.potential(2, now).value_or(0);
 }
@@ -451,15 +528,16 @@ Measures Vesicle::measures(double time) const {
   m.bending_energy = integrals_.energy;
   m.energy = energy();
   m.int_KM2 = integrals_.int_KM2();
-  m.P = multipliers_[0];
-  m.sigma = multipliers_[1];
-  m.K_multiplier = multipliers_[2];
+  const Quantities now = quantities(of_each_);
+  m.P = mean(multipliers_.row(0), now.row(0));
+  m.sigma = mean(multipliers_.row(1), now.row(1));
+  m.K_multiplier = mean(multipliers_.row(2), now.row(1));
   m.area = A;
   m.volume = V;
   m.reduced_volume = V / (4. / 3 * pi * radius * radius * radius);
   m.area_difference = -integrals_.int_KM() / (8 * pi * radius);
-  m.area_drift = A / constraints_.target(time)[1] - 1;
-  m.volume_drift = constraints_.is_held(0) ? V / constraints_.target(time)[0] - 1 : 0;
+  m.area_drift = constraints_.drift_of(1, now, time);
+  m.volume_drift = constraints_.drift_of(0, now, time);
   m.max_speed = max_speed_;
   if (phases_) {
     PhaseMeasures& p = m.phases.emplace();
@@ -469,11 +547,11 @@ Measures Vesicle::measures(double time) const {
     p.gaussian_energy = phases_->gaussian_energy(i);
     p.line_terms = phases_->line_terms(i);
     p.line_energy = p.line_terms.sum();
-    p.sigma_Ld = multipliers_[1] + phases_->held().mean_Ld();
-    p.sigma_Lo = multipliers_[1] + phases_->held().mean_Lo();
+    p.sigma_Ld = mean(multipliers_.row(1), now.row(3)) + phases_->held().mean_Ld();
+    p.sigma_Lo = mean(multipliers_.row(1), now.row(1) - now.row(3)) + phases_->held().mean_Lo();
     p.area_Ld = integrals_.area_Ld;
     p.area_Lo = A - integrals_.area_Ld;
-    p.area_Ld_drift = integrals_.area_Ld / constraints_.target(time)[3] - 1;
+    p.area_Ld_drift = constraints_.drift_of(3, now, time);
     p.line_length = phases_->boundary().length();
     p.line_radius = phases_->least_radius();
     p.max_line_speed = max_line_speed();
@@ -481,14 +559,44 @@ Measures Vesicle::measures(double time) const {
     m.sigma = (p.sigma_Ld * p.area_Ld + p.sigma_Lo * p.area_Lo) / A;
   }
   if (stretch_) m.stretch = stretch_->measures(surface_);
-  m.pressure_energy = constraints_.potential(0, quantities(integrals_));
-  m.area_difference_energy = constraints_.potential(2, quantities(integrals_));
+  m.pressure_energy = constraints_.potential(0, now);
+  m.area_difference_energy = constraints_.potential(2, now);
   if (film_.exists()) m.film_energy = film_energy_;
   m.energy_rise = 0;
   const Topology topology = topology_of(grid(), phi_.nodal());
   m.components = topology.components;
   m.genus = topology.genus;
   return m;
+}
+
+std::vector<ComponentMeasures> Vesicle::component_measures(double time) const {
+  std::vector<ComponentMeasures> all;
+  for (int k = 0; k < components_.count(); k++) {
+    const SurfaceIntegrals& of = of_each_[std::size_t(k)];
+    const auto multiplier = multipliers_.col(k);
+    const double radius = sphere_radius(of.area());
+    ComponentMeasures& m = all.emplace_back();
+    m.time = time;
+    m.component = k + 1;
+    m.volume = of.volume;
+    m.area = of.area();
+    m.reduced_volume = of.volume / (4. / 3 * std::numbers::pi * radius * radius * radius);
+    m.P = multiplier[0];
+    m.sigma = multiplier[1];
+    m.K_multiplier = multiplier[2];
+    m.int_KM = of.int_KM();
+    if (phases_) m.area_Ld = of.area_Ld;
+    const Samples samples = components_.samples(k);
+    for (std::size_t j = 0; j < samples.count(surface_); j++) {
+      const std::size_t i = samples[j];
+      const double w = surface_.weight()[i];
+      if (w == 0) continue;
+      const Vec3 p = surface_.point(i), n = surface_.normal(i);
+      for (int d = 0; d < 3; d++) m.center[d] += w * 0.5 * p[d] * p[d] * n[d] / of.volume;
+      if (phases_) m.sigma += w * phases_->held().tension()[i] / m.area;
+    }
+  }
+  return all;
 }
 
 std::vector<double> Vesicle::grad_of_entries() const {

@@ -1,4 +1,5 @@
 #pragma once
+#include "dynamics/components.h"
 #include "dynamics/constraints.h"
 #include "dynamics/measures.h"
 #include "dynamics/phases.h"
@@ -32,6 +33,7 @@ public:
     std::vector<HeldAreas::Part> held; ///< where the scene has phases
     NarrowBand::State band;
     Constraints::State constraints;
+    std::vector<int> vesicle_of_node; ///< -1 outside; empty where there is one vesicle
   };
   State state() const;
   /// The membrane whose state() it was after it was measured at a time, to the last bit.
@@ -43,6 +45,20 @@ public:
   /// The same after phi was changed by other means than a step. Returns the area before the
   /// correction.
   double measure_anew(double time);
+  /// Which vesicles there are and what each holds: what is to be taken back where a change of phi
+  /// is.
+  struct Holdings {
+    std::vector<int> vesicle_of_node;
+    Constraints::State constraints;
+  };
+  Holdings holdings() const { return {components_.settled(), constraints_.state()}; }
+  void restore(const Holdings& holdings);
+  /// The box moved by so many cells.
+  void shift(const std::array<int, 3>& cells);
+
+  /// Vesicles that parted since the last step hold together what they held as one. From now on each
+  /// keeps what it has of it.
+  void keep_apart(double time);
   /// Lets an area difference that is free until now be held, where it is its time.
   bool set_out(double time);
 
@@ -54,6 +70,8 @@ public:
   double energy_scale() const;
   /// All but the step.
   Measures measures(double time) const;
+  /// Of each vesicle.
+  std::vector<ComponentMeasures> component_measures(double time) const;
   /// Largest relative deviation from the constraints.
   double drift(double time) const;
   /// Normal velocity at a sample (Eq. 80).
@@ -78,7 +96,12 @@ public:
   const NarrowBand& band() const { return band_; }
   Extension& extension() { return extension_; }
   const SurfaceGeometry& surface() const { return surface_; }
+  /// Of all vesicles together, and of each.
   const SurfaceIntegrals& integrals() const { return integrals_; }
+  std::span<const SurfaceIntegrals> integrals_of_each() const { return of_each_; }
+  /// Where they have something of their own: at the same time the same numbers for all that they
+  /// hold together.
+  const Components& components() const { return components_; }
   const Multipliers& multipliers() const { return multipliers_; }
   const Constraints& constraints() const { return constraints_; }
   /// The largest bending modulus.
@@ -95,9 +118,9 @@ public:
   const StretchField* stretch() const { return stretch_ ? &*stretch_ : nullptr; }
   /// Function m of 1, K_M, K, q K_M at a sample.
   double direction(int m, std::size_t sample) const;
-  /// int g_i u dA for a displacement u of the samples, g = (1, K_M, K, q K_M).
+  /// int g_i u dA over each vesicle for a displacement u of the samples, g = (1, K_M, K, q K_M).
   template <class Displacement>
-  Eigen::Vector4d moments(Displacement&& u) const;
+  Eigen::Matrix4Xd moments(Displacement&& u) const;
   /// |grad phi| at the nearest points of band entries; 0 where it is not known.
   std::vector<double> grad_of_entries() const;
 
@@ -121,12 +144,14 @@ private:
   void lead_to_constraints(double time);
   void set_directions();
   void evaluate_on_membrane(std::span<const double> change, std::vector<double>& moves);
-  Eigen::Matrix4d effect_of_directions() const;
-  bool displace(const Eigen::Vector4d& u);
+  Eigen::MatrixXd effect_of_directions() const;
+  bool displace(const Eigen::Matrix4Xd& u);
+  void move_boundaries(const Eigen::VectorXd& along);
   void set_quantities(const Quantities& q);
   void integrate_all(bool with_forces);
   void measure_forces(double time);
   void find_multipliers(double time);
+  void find_velocities(double time);
   void push_films_apart();
 
   Helfrich bending_;
@@ -138,11 +163,14 @@ private:
   NarrowBand band_;
   Extension extension_;
   SurfaceGeometry surface_;
+  Components components_;
   SurfaceIntegrals integrals_;
-  Multipliers multipliers_ = Multipliers::Zero();
+  std::vector<SurfaceIntegrals> of_each_;
+  Eigen::VectorXd lengths_; // of the phase boundary of each vesicle
+  Multipliers multipliers_ = Multipliers::Zero(4, 1);
   PhaseIntegrals phase_integrals_;
   std::array<Direction, directions> directions_;
-  State origin_;                  // of the last measurement; phi, psi and the band only
+  State origin_;                  // of the last measurement
   bool delicate_ = false;         // the constraints, as last seen
   Array<double> field_;           // on the grid; 0 off the band
   std::vector<double> variation_; // F at the samples
@@ -151,11 +179,12 @@ private:
 };
 
 template <class Displacement>
-Eigen::Vector4d Vesicle::moments(Displacement&& u) const {
-  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+Eigen::Matrix4Xd Vesicle::moments(Displacement&& u) const {
+  Eigen::Matrix4Xd sum = Eigen::Matrix4Xd::Zero(4, components_.count());
   for (std::size_t i = 0; i < surface_.size(); i++) {
     const double w = surface_.weight()[i] * u(i), KM = surface_.KM()[i];
-    sum += w * Eigen::Vector4d(1, KM, surface_.K()[i], phases_ ? phases_->share()[i] * KM : 0);
+    sum.col(components_.of_sample(i)) +=
+        w * Eigen::Vector4d(1, KM, surface_.K()[i], phases_ ? phases_->share()[i] * KM : 0);
   }
   return sum;
 }

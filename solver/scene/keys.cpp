@@ -158,6 +158,13 @@ std::vector<Key> make_keys() {
       {"volume", "pressure", member<&Scene::volume, &VolumeConstraint::pressure>(),
        "energy/length³", any, {"free"}, "pressure inside less that outside"},
 
+      {"volume", "of", choice<&Scene::volume, &VolumeConstraint::of>({"each", "all"}), "", any,
+       {"fixed", "ramped"},
+       "each: every vesicle has its own volume, keeps it after parting, and the sum after fusing; all: they have one together, water passes between them"},
+
+      {"area", "of", choice<&Scene::area, &AreaConstraint::of>({"each", "all"}), "", any, {},
+       "each: every vesicle has its own area, keeps it after parting, and the sum after fusing; all: they have one together, lipid passes between them"},
+
       {"area_difference", "constraint",
        choice<&Scene::area_difference, &AreaDifferenceConstraint::constraint>(
            {"fixed", "ramped", "free"}), "", any, {},

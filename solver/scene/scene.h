@@ -102,6 +102,9 @@ struct Stretch {
 /// fixed: as it is at the start. ramped: led to given values. free: under a given multiplier.
 enum class Constraint { fixed, ramped, free };
 
+/// Whether each vesicle keeps its own of a quantity that is held, or all of them their sum.
+enum class Of { each, all };
+
 /// Values that a constraint is led to, one after the other, at a limited rate. Before the first
 /// start time it stays as it is at the start.
 struct Ramp {
@@ -116,10 +119,18 @@ struct Ramp {
 /// The volume; targets are reduced volumes, V / (4/3 pi (A / 4 pi)^(3/2)).
 struct VolumeConstraint {
   Constraint constraint = Constraint::fixed;
+  Of of = Of::each; ///< where it is held
   Ramp ramp;
   double pressure = 0; ///< P, when free
 
   bool operator==(const VolumeConstraint&) const = default;
+};
+
+/// The area, of each phase too, which is always held, and so the area difference where it is.
+struct AreaConstraint {
+  Of of = Of::each;
+
+  bool operator==(const AreaConstraint&) const = default;
 };
 
 /// The area difference; targets are reduced, -int K_M dA / (8 pi Rs), 1 for a sphere.
@@ -185,7 +196,8 @@ struct Scene {
   /// With domains: spontaneous curvatures are 0 until then.
   double curvature_start_time = 0;
   Stretch stretch;
-  VolumeConstraint volume; ///< the areas, of each phase, are always fixed
+  VolumeConstraint volume;
+  AreaConstraint area;
   AreaDifferenceConstraint area_difference;
   Contact contact;
   double end_time = 0; ///< 0: see end()

@@ -64,7 +64,7 @@ std::vector<BadScene> bad_scenes() {
       {"KeyOutsideItsSection", "nodes = 64\n", "bad.toml:1: nodes: unknown key",
        "did you mean nodes in [grid]?"},
       {"SectionOfAnEarlierRelease", fine + "[constraints]\nvolume = \"fixed\"\n",
-       "bad.toml:4: [constraints]: unknown section", "[volume], [area_difference]"},
+       "bad.toml:4: [constraints]: unknown section", "[volume], [area], [area_difference]"},
       {"FirstOfTwoMistakes", "[run]\nend = 1\n[grid]\nnods = 64\n",
        "bad.toml:2: [run] end:", "unknown key"},
       {"SectionAsValue", "grid = 64\n", "bad.toml:1: grid: this is a section",

@@ -30,7 +30,7 @@ TEST(Multipliers, GiveTheRatesAskedFor) {
   for (std::size_t i = 0; i < g.size(); i++)
     F[i] = bending.variation(g.KM()[i], g.K()[i], g.lap_KM()[i]);
   const SurfaceIntegrals integrals = integrate(g, bending, F);
-  const Quantities asked{0.7, -1.9, 2.3, 0};
+  const Eigen::Vector4d asked{0.7, -1.9, 2.3, 0};
   for (const Constraint volume : {Constraint::fixed, Constraint::ramped, Constraint::free})
     for (const Constraint difference : {Constraint::fixed, Constraint::ramped, Constraint::free})
       for (const double factor : {0., 1.}) {
@@ -38,19 +38,19 @@ TEST(Multipliers, GiveTheRatesAskedFor) {
         const Quantities rate = factor * asked;
         const Eigen::VectorXd m = constraints.multipliers(integrals.gram.topLeftCorner<3, 3>(),
                                                           integrals.variation, rate);
-        Quantities found = Quantities::Zero();
+        Eigen::Vector4d found = Eigen::Vector4d::Zero();
         double scale = 0; // int |v| dA
         for (std::size_t i = 0; i < g.size(); i++) {
           const double KM = g.KM()[i], K = g.K()[i], w = g.weight()[i];
           const double v = -F[i] + m[0] + m[1] * KM + m[2] * K;
-          found += w * v * Quantities(1, -KM, -2 * K, 0);
+          found += w * v * Eigen::Vector4d(1, -KM, -2 * K, 0);
           scale += w * std::abs(v);
         }
         EXPECT_EQ(constraints.is_held(V), volume != Constraint::free);
         EXPECT_TRUE(constraints.is_held(A));
         EXPECT_EQ(constraints.is_held(M), difference != Constraint::free);
         // Measured 4e-6: the solution is damped by what direction the three almost share.
-        for (const int i : constraints.held()) EXPECT_NEAR(found[i], rate[i], 1e-5 * scale) << i;
+        for (const int i : constraints.held()) EXPECT_NEAR(found[i], rate(i), 1e-5 * scale) << i;
         EXPECT_TRUE(volume != Constraint::free || m[V] == -37);
         EXPECT_TRUE(difference != Constraint::free || m[M] == 5);
       }
@@ -82,8 +82,8 @@ constexpr double volume_unit = 4 * M_PI / 3 * radius * radius * radius,
                  difference_unit = -8 * M_PI * radius;
 
 Quantities with(double reduced_volume, double area_difference) {
-  return {volume_unit * reduced_volume, 4 * M_PI * radius * radius,
-          difference_unit * area_difference, 0};
+  return Eigen::Vector4d(volume_unit * reduced_volume, 4 * M_PI * radius * radius,
+                         difference_unit * area_difference, 0);
 }
 
 Constraints started(const Scene& scene) {
@@ -100,8 +100,8 @@ TEST(Ramps, LeaveTheAreaDifferenceFreeUntilItSetsOut) {
   EXPECT_TRUE(constraints.set_out(0.01, with(0.8, 1.07))) << "from what it has become";
   EXPECT_TRUE(constraints.is_held(M));
   EXPECT_FALSE(constraints.set_out(0.01, with(0.8, 1.07))) << "only once";
-  EXPECT_NEAR(constraints.target(0.01)[M] / difference_unit, 1.07, 1e-12);
-  EXPECT_NEAR(constraints.target(0.012)[M] / difference_unit, 1.08, 1e-12);
+  EXPECT_NEAR(constraints.target(0.01)(M) / difference_unit, 1.07, 1e-12);
+  EXPECT_NEAR(constraints.target(0.012)(M) / difference_unit, 1.08, 1e-12);
 }
 
 Constraints under_way(const Scene& scene) {
@@ -114,9 +114,9 @@ TEST(Ramps, LeadTargetsAtTheirRate) {
   const Constraints constraints = under_way(ramped_scene());
   for (const Leg& leg : legs) {
     const Quantities target = constraints.target(leg.time);
-    EXPECT_NEAR(target[V] / volume_unit, leg.reduced_volume, 1e-12) << leg.time;
-    EXPECT_NEAR(target[A], 4 * M_PI * radius * radius, 1e-12);
-    EXPECT_NEAR(target[M] / difference_unit, leg.area_difference, 1e-12) << leg.time;
+    EXPECT_NEAR(target(V) / volume_unit, leg.reduced_volume, 1e-12) << leg.time;
+    EXPECT_NEAR(target(A), 4 * M_PI * radius * radius, 1e-12);
+    EXPECT_NEAR(target(M) / difference_unit, leg.area_difference, 1e-12) << leg.time;
   }
 }
 
@@ -148,7 +148,7 @@ TEST(Ramps, StepsLandOnEveryTurn) {
     const double step = constraints.longest_step(t);
     ASSERT_GT(step, 0);
     const Quantities change = constraints.target(t + step) - constraints.target(t);
-    EXPECT_TRUE(!constraints.is_held(M) || std::abs(change[M] / difference_unit) <= 2.501e-3)
+    EXPECT_TRUE(!constraints.is_held(M) || std::abs(change(M) / difference_unit) <= 2.501e-3)
         << "in small bits";
     t += step;
     constraints.set_out(t, with(0.8, 1.05));

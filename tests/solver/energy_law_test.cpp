@@ -53,7 +53,7 @@ Power power_at(const Scene& scene, const Simulation& simulation) {
   Power power;
   power.friction = of_membrane(v) + (v.phases() ? of_boundary(*v.phases()) : 0) +
                    (v.stretch() ? of_lipid(v) : 0);
-  power.ramps = v.multipliers()[0] * rate[0] - 0.5 * v.multipliers()[2] * rate[2];
+  power.ramps = v.multipliers()(0) * rate(0) - 0.5 * v.multipliers()(2) * rate(2);
   return power;
 }
 

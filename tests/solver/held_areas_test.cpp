@@ -39,12 +39,13 @@ struct Ring : TwoPhases {
     }
   }
   HeldAreas::Integrals find(HeldAreas& held, std::span<const double> F = {}) const {
-    held.find(band, domains_of(band, psi.nodal()), boundary);
-    held.sample(grid, geometry, point);
+    held.find(band, domains_of(band, psi.nodal()), boundary, one);
+    held.sample(grid, geometry, point, one);
     const std::vector<double> speed(boundary.points().size(), 1);
-    return held.integrate(geometry, share, F, boundary, speed, 1);
+    return held.integrate(geometry, share, F, boundary, speed, 1, one);
   }
 
+  Components one{grid, false};
   BoundaryFeet feet;
   std::vector<int> point;
   std::vector<double> share;
@@ -61,7 +62,7 @@ std::pair<int, int> ring_and_cap(const HeldAreas::Integrals& sum) {
 
 TEST(HeldAreas, AreAllOfLdWhereLipidFlowsFreely) {
   const Ring s(north, south);
-  HeldAreas held(false, s.grid.spacing);
+  HeldAreas held(false, true, s.grid.spacing);
   const HeldAreas::Integrals sum = s.find(held);
   ASSERT_EQ(held.size(), 1u);
   const double exact = ring_area * (std::cos(north) - std::cos(south));
@@ -73,7 +74,7 @@ TEST(HeldAreas, AreAllOfLdWhereLipidFlowsFreely) {
 
 TEST(HeldAreas, AreThoseOfAllDomainsButTheRestWhereItDoesNot) {
   const Ring s(north, south);
-  HeldAreas held(true, s.grid.spacing);
+  HeldAreas held(true, true, s.grid.spacing);
   const std::vector<double> F(s.geometry.size(), 1);
   const HeldAreas::Integrals sum = s.find(held, F);
   ASSERT_EQ(held.size(), 2u);
@@ -95,7 +96,7 @@ TEST(HeldAreas, AreThoseOfAllDomainsButTheRestWhereItDoesNot) {
 // rest do not.
 TEST(HeldAreas, TensionsPullWhereTheirPartIs) {
   const Ring s(north, south);
-  HeldAreas held(true, s.grid.spacing);
+  HeldAreas held(true, true, s.grid.spacing);
   const HeldAreas::Integrals sum = s.find(held);
   const auto [ring, cap] = ring_and_cap(sum);
   VectorXd tensions(2);
@@ -117,7 +118,7 @@ TEST(HeldAreas, TensionsPullWhereTheirPartIs) {
 
 // A cap that lost area asks the circle around it back, and that circle alone.
 TEST(HeldAreas, BoundariesAreAskedBackToWhereAreasWere) {
-  HeldAreas held(true, Grid::cube(56, 1).spacing);
+  HeldAreas held(true, true, Grid::cube(56, 1).spacing);
   auto look = [&](const Ring& s) {
     const HeldAreas::Integrals sum = s.find(held);
     held.set_tensions(VectorXd::Zero(2), sum, s.share, 4 * M_PI * R * R);

@@ -133,6 +133,13 @@ TEST(Restart, IsExactRightAfterANeckParted) {
   EXPECT_GE(restarts_that_agree(scene, 400, after_events()), 2);
 }
 
+TEST(Restart, IsExactWithVesiclesThatKeepTheirOwn) {
+  Scene scene = builtin_on("fig6b", 48);
+  scene.volume.of = scene.area.of = Of::each;
+  scene.end_time = 5e-5;
+  EXPECT_GE(restarts_that_agree(scene, 400, after_events()), 2);
+}
+
 TEST(Restart, IsExactRightAfterTheBoxMoved) {
   Scene scene = scene_of(ellipsoid({0.6, 0.4, 0.2}), 40, 3e-4);
   scene.membrane.spontaneous_curvature = -15; // arms grow

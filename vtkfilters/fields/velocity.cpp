@@ -44,8 +44,9 @@ Forces forces_on(const Frame& frame, const LevelSet& phi, const NarrowBand& band
   Forces f{std::vector<double>(surface.size(), 0), std::vector<double>(surface.size(), 0)};
   if (scene.has_phases()) {
     Phases phases(scene, frame.psi, fourier);
-    phases.locate(phi, band);
-    phases.sample(band, surface);
+    const Components together(frame.grid, false);
+    phases.locate(phi, band, together);
+    phases.sample(band, surface, together);
     phases.find_forces(phi, surface, frame.time, f.other);
     f.share_Ld.assign(phases.share().begin(), phases.share().end());
     for (std::size_t i = 0; i < surface.size(); ++i)
