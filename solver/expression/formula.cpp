@@ -142,7 +142,8 @@ private:
     if (next_->is('+')) return take(), factor();
     if (next_->is('-')) {
       const Token& sign = take();
-      return combined(sign, number(sign, -1), factor(), 0, std::multiplies{});
+      const Part positive = factor();
+      return combined(sign, number(sign, -1), positive, positive.degree, std::multiplies{});
     }
     const Part base = atom();
     if (!next_->is('^')) return base;

@@ -305,6 +305,7 @@ TEST(Formula, IsRefusedWithThePlaceOfAMistake) {
        "column 3: a power of 1e+06, counting powers of powers and products; allowed: up "
        "to 64"},
       {"((KM^4)^4)^5", "column 11: a power of 80"},
+      {"(-KM^9)^9", "column 8: a power of 81"},
       {"((KM + 1)^60)*K^5", "column 14: a power of 65"},
   };
   for (const auto& [text, message] : cases) EXPECT_THAT(refusal(text), StartsWith(message)) << text;
