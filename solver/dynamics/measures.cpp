@@ -15,6 +15,10 @@ std::vector<EnergyTerm> energy_terms(const Measures& m) {
     add("the geodesic curvature of the phase boundary", m.phases->line_terms.geodesic);
     add("the geodesic torsion of the phase boundary", m.phases->line_terms.torsion);
     add("the normal curvature of the phase boundary", m.phases->line_terms.normal);
+    add("the squared geodesic curvature of the phase boundary",
+        m.phases->line_terms.geodesic_square);
+    add("the squared geodesic torsion of the phase boundary", m.phases->line_terms.torsion_square);
+    add("the squared normal curvature of the phase boundary", m.phases->line_terms.normal_square);
   } else {
     add("bending", m.bending_energy);
   }

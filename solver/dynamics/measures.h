@@ -10,13 +10,15 @@ namespace lamella {
 
 /// The terms of the line energy (Eq. 85); nothing where their modulus is 0.
 struct LineTerms {
-  std::optional<double> tension;  ///< kappa_l oint dl
-  std::optional<double> geodesic; ///< kappa_g oint kg dl
-  std::optional<double> torsion;  ///< kappa_tau oint tau_g dl
-  std::optional<double> normal;   ///< kappa_n oint kn dl
+  std::optional<double> tension;                                        ///< kappa_l oint dl
+  std::optional<double> geodesic;                                       ///< kappa_g oint kg dl
+  std::optional<double> torsion;                                        ///< kappa_tau oint tau_g dl
+  std::optional<double> normal;                                         ///< kappa_n oint kn dl
+  std::optional<double> geodesic_square, torsion_square, normal_square; ///< of kg^2 and so on
 
   double sum() const {
-    return tension.value_or(0) + geodesic.value_or(0) + torsion.value_or(0) + normal.value_or(0);
+    return tension.value_or(0) + geodesic.value_or(0) + torsion.value_or(0) + normal.value_or(0) +
+           geodesic_square.value_or(0) + torsion_square.value_or(0) + normal_square.value_or(0);
   }
 };
 

@@ -44,9 +44,8 @@ PhaseIntegrals& PhaseIntegrals::operator+=(const PhaseIntegrals& o) {
 
 Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier)
     : h_(scene.grid().spacing), ld_(scene.ld), lo_(scene.lo),
-      curvature_start_time_(scene.curvature_start_time),
-      line_(scene.line), sharp_line_{0, 0, scene.line.torsion_modulus, scene.line.normal_modulus},
-      accurate_(SmearedStep::accurate(line_width * h_)),
+      curvature_start_time_(scene.curvature_start_time), line_(scene.line),
+      line_forces_(scene.line, h_), accurate_(SmearedStep::accurate(line_width * h_)),
       monotonic_(SmearedStep::monotonic(modulus_width * h_)),
       of_moments_(SmearedStep::of_moments(moment_width * h_)),
       held_(scene.stretch.modulus > 0, scene.area.of == Of::each, h_), fit_(scene.grid(), fourier),
@@ -156,8 +155,8 @@ void Phases::restore_distance(const NarrowBand& band) {
 void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
                     const Components& vesicles) {
   const std::size_t n = surface.size(), own = surface.entry().size();
-  const double reach =
-      std::max({accurate_.half_width(), monotonic_.half_width(), of_moments_.half_width()});
+  const double reach = std::max({accurate_.half_width(), monotonic_.half_width(),
+                                 of_moments_.half_width(), line_forces_.half_width()});
   share_.resize(n);
   moment_share_.resize(n);
   delta_.assign(n, 0);
@@ -219,16 +218,6 @@ void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, do
   std::vector<Vector3d> points;
   for (const StripPoint& s : strip_) points.push_back(vec(surface.point(s.sample)));
   const std::vector<Taylor> at_phi = taylor(phi, points);
-  std::vector<Vector3d> line_force;
-  std::vector<double> force_N, couple;
-  const bool sharp = sharp_line_.torsion != 0 || sharp_line_.normal != 0;
-  if (sharp) {
-    line_force = sharp_line_.forces(boundary_);
-    for (std::size_t j = 0; j < line_force.size(); j++) {
-      force_N.push_back(line_force[j].dot(boundary_.points()[j].N));
-      couple.push_back(sharp_line_.couple(boundary_.points()[j]));
-    }
-  }
   parallel_for(strip_.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; m++) {
       const StripPoint& s = strip_[m];
@@ -251,12 +240,7 @@ void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, do
       F -= line_.tension * delta_[i] * kn;
       F -= v.kappa_G.d1 * (B * hess).trace() + v.kappa_G.d2 * B_gg -
            KM * (v.kappa_G.d1 * s.lap + v.kappa_G.d2 * s.slope2);
-      if (sharp && s.foot.exists()) {
-        const SmearedStep::Value d = accurate_.at(s.psi);
-        F -= delta_[i] * s.foot.value(force_N) +
-             s.foot.value(couple) * (d.slope * s.slope2 + d.delta * s.lap);
-      }
-      variation[i] = F;
+      variation[i] = F + line_forces_.variation(boundary_, s.foot, s.psi, s.slope2, s.lap);
     }
   });
 }
@@ -265,16 +249,13 @@ void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, do
 /// the geodesic through the point, by Gauss's rule.
 void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli) {
   const std::span<const BoundaryPoint> curve = boundary_.points();
-  const std::vector<Vector3d> sharp = sharp_line_.forces(boundary_);
+  line_forces_.find(boundary_, phi);
+  const LineForces::Stiffness of_line = line_forces_.of_boundary();
   force_.resize(curve.size());
   flow_.assign(curve.size(), 0);
-  stiffness_ = 0;
-  for (std::size_t j = 0; j < curve.size(); j++) {
-    force_[j] = line_.tension * curve[j].kg + sharp[j].dot(curve[j].n);
-    const double tension = line_.tension + std::abs(sharp_line_.torsion * curve[j].tau_g) +
-                           std::abs(sharp_line_.normal * curve[j].B_perp);
-    stiffness_ = std::max(stiffness_, tension / (h_ * h_));
-  }
+  stiffness_ = (of_line.stiffness / (h_ * h_) + of_line.tension + line_.tension) / (h_ * h_);
+  for (std::size_t j = 0; j < curve.size(); j++)
+    force_[j] = line_.tension * curve[j].kg + line_forces_.along_boundary(j);
   if (!moduli.differ()) return;
   constexpr int rule = 16;
   constexpr double half_node[rule / 2] = {.0950125098376374, .2816035507792589, .4580167776572274,
@@ -386,18 +367,24 @@ double Phases::gaussian_energy(const PhaseIntegrals& i) const {
 /// itself tells chi.
 LineTerms Phases::line_terms(const PhaseIntegrals& i) const {
   constexpr double turn = 2 * std::numbers::pi;
-  const auto integral = [&](double CurveGeometry::*curvature) {
-    return boundary_.integral([=](const CurveGeometry& c) { return c.*curvature; });
-  };
   LineTerms terms;
+  const auto term = [&](std::optional<double>& energy, double Line::*modulus) {
+    if (line_.*modulus == 0) return;
+    Line part;
+    part.*modulus = line_.*modulus;
+    energy = line_forces_.energy(LinePolynomial(part), boundary_);
+  };
   if (line_.tension != 0) terms.tension = line_.tension * boundary_.length();
   if (line_.geodesic_modulus != 0) {
-    const double chi = std::round((i.int_K_Ld - integral(&CurveGeometry::kg)) / turn);
+    const double oint_kg = boundary_.integral([](const CurveGeometry& c) { return c.kg; });
+    const double chi = std::round((i.int_K_Ld - oint_kg) / turn);
     terms.geodesic = line_.geodesic_modulus * (i.int_K_Ld - turn * chi);
   }
-  if (line_.torsion_modulus != 0)
-    terms.torsion = line_.torsion_modulus * integral(&CurveGeometry::tau_g);
-  if (line_.normal_modulus != 0) terms.normal = line_.normal_modulus * integral(&CurveGeometry::kn);
+  term(terms.torsion, &Line::torsion_modulus);
+  term(terms.normal, &Line::normal_modulus);
+  term(terms.geodesic_square, &Line::geodesic_square_modulus);
+  term(terms.torsion_square, &Line::torsion_square_modulus);
+  term(terms.normal_square, &Line::normal_square_modulus);
   return terms;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 #include "dynamics/held_areas.h"
+#include "dynamics/line_forces.h"
 #include "dynamics/measures.h"
 #include "dynamics/stretch_field.h"
 #include "energy/helfrich.h"
-#include "energy/line.h"
 #include "energy/phase_moduli.h"
 #include "geometry/boundary_feet.h"
 #include "geometry/surface_geometry.h"
@@ -109,6 +109,7 @@ public:
   double drag() const { return drag_; }
   void set_drag(double drag) { drag_ = drag; }
   const Line& line() const { return line_; }
+  const LineForces& line_forces() const { return line_forces_; }
   /// Spontaneous curvatures are 0 before.
   double curvature_start_time() const { return curvature_start_time_; }
   bool is_curved(double time) const { return time >= curvature_start_time_ * (1 - 1e-12); }
@@ -141,7 +142,7 @@ private:
   Phase ld_, lo_;
   double curvature_start_time_;
   Line line_;
-  LineEnergy sharp_line_; // what is not smeared by itself
+  LineForces line_forces_;
   SmearedStep accurate_, monotonic_, of_moments_;
   HeldAreas held_;
   SmoothFit fit_;

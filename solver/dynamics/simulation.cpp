@@ -267,14 +267,20 @@ int Simulation::second_response() const {
 
 ImplicitSymbol Simulation::implicit_symbol() const {
   const double tension = vesicle_.greatest_tension() + vesicle_.curvature_tension();
-  const double line = vesicle_.phases() ? vesicle_.phases()->line().tension : 0;
-  return {vesicle_.stiffness(), std::max(0.0, tension) + line / vesicle_.constraints().radius()};
+  if (!vesicle_.phases()) return {vesicle_.stiffness(), std::max(0.0, tension)};
+  const LineForces::Stiffness line = vesicle_.phases()->line_forces().of_membrane();
+  return {vesicle_.stiffness() + line.stiffness,
+          std::max(0.0, tension) + line.tension +
+              vesicle_.phases()->line().tension / vesicle_.constraints().radius()};
 }
 
 void Simulation::predict_boundary(double dt) {
   Phases& phases = *vesicle_.phases();
   phases.extend_rates(vesicle_.band(), dt, vesicle_.extension());
-  psi_stepper_->predict(vesicle_.extension(), dt, {0, phases.line().tension / phases.drag()});
+  const LineForces::Stiffness line = phases.line_forces().of_boundary();
+  psi_stepper_->predict(
+      vesicle_.extension(), dt,
+      {line.stiffness / phases.drag(), (phases.line().tension + line.tension) / phases.drag()});
 }
 
 /// After phi was changed by other means than a step. Returns the area before it was put back.

@@ -375,10 +375,12 @@ void Vesicle::integrate_all(bool with_forces) {
 
 void Vesicle::measure_forces(double time) {
   surface_.jets(phi_, band_);
-  const double h = grid().spacing, limit = force_limit * stiffness() / (h * h * h);
+  const double h = grid().spacing;
+  double limit = force_limit * stiffness() / (h * h * h);
   variation_.resize(surface_.size());
   if (phases_) {
     phases_->find_forces(phi_, surface_, time, variation_);
+    limit += phases_->line_forces().greatest();
   } else {
     for (std::size_t i = 0; i < surface_.size(); i++)
       variation_[i] = bending_.variation(surface_.KM()[i], surface_.K()[i], surface_.lap_KM()[i]);

@@ -6,18 +6,20 @@ namespace lamella {
 
 namespace {
 
+constexpr int terms = SmearedStep::terms;
+
 /// Coefficients of (1 - u^2)^power in powers of u^2.
-std::array<double, 8> bell(int power) {
-  std::array<double, 8> c{1};
+std::array<double, terms> bell(int power) {
+  std::array<double, terms> c{1};
   for (int n = 0; n < power; n++)
-    for (int j = 7; j > 0; j--) c[j] -= c[j - 1];
+    for (int j = terms - 1; j > 0; j--) c[j] -= c[j - 1];
   return c;
 }
 
 /// int_{-1}^{1} u^(2 m) bell(u) du
-double moment(const std::array<double, 8>& bell, int m) {
+double moment(const std::array<double, terms>& bell, int m) {
   double sum = 0;
-  for (int j = 0; j < 8; j++) sum += 2 * bell[j] / (2 * (j + m) + 1);
+  for (int j = 0; j < terms; j++) sum += 2 * bell[j] / (2 * (j + m) + 1);
   return sum;
 }
 
@@ -40,6 +42,10 @@ SmearedStep::SmearedStep(double half_width, const std::array<double, terms>& eve
 SmearedStep SmearedStep::accurate(double half_width) { return {half_width, 4, 55.6}; }
 
 SmearedStep SmearedStep::of_moments(double half_width) { return {half_width, 4, 95}; }
+
+SmearedStep SmearedStep::of_line_forces(double half_width) { return {half_width, 7, 100}; }
+
+SmearedStep SmearedStep::of_line_couples(double half_width) { return {half_width, 7, 265.6}; }
 
 SmearedStep SmearedStep::monotonic(double half_width) {
   std::array<double, terms> w = bell(4);

@@ -20,6 +20,19 @@ public:
     double value(const Values& of_points) const {
       return (1 - share) * of_points[at] + share * of_points[next];
     }
+    /// The same by cubics, which take the points before and after these two too.
+    template <class Values>
+    double smooth_value(const Values& of_points, const PhaseBoundary& boundary) const {
+      const auto [before, after] = boundary.neighbours(at);
+      const int back = next == after ? before : after;
+      const auto [first, second] = boundary.neighbours(next);
+      const int beyond = first == at ? second : first;
+      if (back == at || beyond == next) return value(of_points); // the end of an open piece
+      const double u = share, v = 1 - u;
+      return v * (1 + u) * (1 + v) / 2 * of_points[at] +
+             u * (1 + u) * (1 + v) / 2 * of_points[next] -
+             u * v * ((1 + v) / 6 * of_points[back] + (1 + u) / 6 * of_points[beyond]);
+    }
   };
 
   /// Feet of the nearest points of the band's nodes, as far as they are nearer than `reach`.

@@ -256,6 +256,26 @@ std::pair<int, int> PhaseBoundary::neighbours(int point) const {
   return {int(i == *(end - 1) ? i : i - 1), int(i + 1 == *end ? i : i + 1)};
 }
 
+std::vector<double> PhaseBoundary::derivative(std::span<const double> f) const {
+  constexpr double w[5] = {0, 4. / 5, -1. / 5, 4. / 105, -1. / 280};
+  std::vector<double> out;
+  for (std::size_t c = 0; c < curves(); c++) {
+    const std::size_t first = begin_[c], n = begin_[c + 1] - first;
+    for (std::size_t i = 0; i < n; i++) {
+      double sum = 0;
+      for (std::size_t m = 1; m <= 4; m++)
+        sum += w[m] * (f[first + (i + m) % n] - f[first + (i + n - m) % n]);
+      out.push_back(sum / points_[first + i].weight);
+    }
+  }
+  for (std::size_t i = out.size(); i < points_.size(); i++) {
+    const auto [before, after] = neighbours(int(i));
+    const double way = points_[after].s - points_[before].s;
+    out.push_back(way > 0 ? (f[after] - f[before]) / way : 0);
+  }
+  return out;
+}
+
 void PhaseBoundary::add_open(std::span<const BoundaryPoint> piece) {
   double s = 0;
   for (std::size_t i = 0; i < piece.size(); i++) {

@@ -49,28 +49,9 @@ public:
     for (const BoundaryPoint& p : points_) sum += p.weight * f(p);
     return sum;
   }
-  /// d_s f(point) at all points, by central differences of eighth order; of second order on open
-  /// pieces.
-  template <class F>
-  std::vector<double> derivative(F&& f) const {
-    constexpr double w[5] = {0, 4. / 5, -1. / 5, 4. / 105, -1. / 280};
-    std::vector<double> out;
-    for (std::size_t c = 0; c < curves(); c++) {
-      const std::span<const BoundaryPoint> p = curve(c);
-      for (std::size_t i = 0, n = p.size(); i < n; i++) {
-        double sum = 0;
-        for (std::size_t m = 1; m <= 4; m++)
-          sum += w[m] * (f(p[(i + m) % n]) - f(p[(i + n - m) % n]));
-        out.push_back(sum / p[i].weight);
-      }
-    }
-    for (std::size_t i = out.size(); i < points_.size(); i++) {
-      const auto [before, after] = neighbours(int(i));
-      const double way = points_[after].s - points_[before].s;
-      out.push_back(way > 0 ? (f(points_[after]) - f(points_[before])) / way : 0);
-    }
-    return out;
-  }
+  /// d_s f at all points for values f at them, by central differences of eighth order; of second
+  /// order on open pieces.
+  std::vector<double> derivative(std::span<const double> f) const;
   double length() const {
     return integral([](const BoundaryPoint&) { return 1.0; });
   }

@@ -80,10 +80,13 @@ struct Phase {
 };
 
 /// Energy of the phase boundary, oint (tension + geodesic_modulus kg + torsion_modulus tau_g +
-/// normal_modulus kn) dl (Eq. 85).
+/// normal_modulus kn + the square moduli times kg^2, tau_g^2, kn^2 + perpendicular_modulus B_perp)
+/// dl (Eq. 6).
 struct Line {
   double tension = 0;
   double geodesic_modulus = 0, torsion_modulus = 0, normal_modulus = 0;
+  double geodesic_square_modulus = 0, torsion_square_modulus = 0, normal_square_modulus = 0;
+  double perpendicular_modulus = 0;
   /// Of the boundary along the membrane, per length, over that of the membrane per area: a length.
   /// 0: the radius of the sphere of the vesicle's area.
   double drag = 0;

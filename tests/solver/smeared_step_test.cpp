@@ -40,10 +40,12 @@ double of_distances(const SmearedStep& s, int power) {
 
 const SmearedStep accurate = SmearedStep::accurate(half_width),
                   of_moments = SmearedStep::of_moments(half_width),
-                  monotonic = SmearedStep::monotonic(half_width);
+                  monotonic = SmearedStep::monotonic(half_width),
+                  of_line_forces = SmearedStep::of_line_forces(half_width),
+                  of_line_couples = SmearedStep::of_line_couples(half_width);
 
 TEST(SmearedStep, GoesFromZeroToOneWithDerivatives) {
-  for (const SmearedStep& s : {accurate, of_moments, monotonic}) {
+  for (const SmearedStep& s : {accurate, of_moments, monotonic, of_line_forces, of_line_couples}) {
     EXPECT_EQ(s.half_width(), half_width);
     EXPECT_NEAR(moment(s, 0), 1, 1e-11);
     EXPECT_DOUBLE_EQ(s.at(0).step, 0.5);
@@ -78,13 +80,15 @@ TEST(SmearedStep, OfModuliNeverLeavesThoseOfThePhases) {
 /// Energies err by these moments (smeared_step.h).
 TEST(SmearedStep, LeavesEnergiesAsASharpBoundaryHasThem) {
   const double h2 = half_width * half_width;
-  for (const SmearedStep& s : {accurate, of_moments}) EXPECT_NEAR(moment(s, 2), 0, 1e-12 * h2);
+  for (const SmearedStep& s : {accurate, of_moments, of_line_forces, of_line_couples})
+    EXPECT_NEAR(moment(s, 2), 0, 1e-12 * h2);
   EXPECT_NEAR(moment(monotonic, 2) / h2, 1. / 11, 1e-10); // of (1 - u^2)^4
   // Measured -2.7e-4, the coefficient 55.6 being rounded, against .12 of the bell; .024, .080, .34.
   EXPECT_NEAR(of_distances(accurate, 3), 0, 5e-4);
   EXPECT_GT(of_distances(monotonic, 3), 0.1);
   EXPECT_LT(std::abs(of_distances(of_moments, 1)), 0.35 * of_distances(accurate, 1));
   EXPECT_LT(of_distances(accurate, 1), 0.25 * of_distances(monotonic, 1));
+  EXPECT_NEAR(of_distances(of_line_couples, 1), 0, 1e-4); // 265.6 being rounded
 }
 
 // -----------------------------------------------------------------------------------------------
