@@ -37,7 +37,10 @@ std::string line_rows(const LineTerms& from, const LineTerms& to) {
   return optional_row("", "of tension", from.tension, to.tension) +
          optional_row("", "of kg", from.geodesic, to.geodesic) +
          optional_row("", "of kn", from.normal, to.normal) +
-         optional_row("", "of tau_g", from.torsion, to.torsion);
+         optional_row("", "of tau_g", from.torsion, to.torsion) +
+         optional_row("", "of kg^2", from.geodesic_square, to.geodesic_square) +
+         optional_row("", "of kn^2", from.normal_square, to.normal_square) +
+         optional_row("", "of tau_g^2", from.torsion_square, to.torsion_square);
 }
 
 std::string energy_rows(const Measures& start, const Measures& end) {

@@ -24,8 +24,8 @@ using Row = std::vector<std::pair<const char*, double>>;
 
 /** Terms of the energy that the solver knows, and tells in the field data where the scene has them. */
 constexpr const char* KnownTerms[] = { "gaussian_energy", "line_energy", "line_tension_energy",
-  "kg_energy", "kn_energy", "tau_g_energy", "stretch_energy", "pressure_energy",
-  "area_difference_energy", "film_energy" };
+  "kg_energy", "kn_energy", "tau_g_energy", "kg2_energy", "kn2_energy", "tau_g2_energy",
+  "stretch_energy", "pressure_energy", "area_difference_energy", "film_energy" };
 
 Row RowOf(const lamella::ShapeMeasures& m, double time, vtkDataObject& about)
 {

@@ -37,8 +37,9 @@
  * | column | meaning; energy |
  * |--------|-----------------|
  * | gaussian_energy | sum of gaussian_modulus int K dA |
- * | line_energy | of the phase boundary, the sum of the next four |
+ * | line_energy | of the phase boundary, the sum of the next seven |
  * | line_tension_energy, kg_energy, kn_energy, tau_g_energy | term by term |
+ * | kg2_energy, kn2_energy, tau_g2_energy | those of the squares |
  * | stretch_energy | of local stretch |
  * | pressure_energy, area_difference_energy | of a given pressure, or multiplier |
  * | film_energy | of the disjoining pressure of films |

@@ -78,6 +78,11 @@ lamellaProperty(vtkVesicleDynamics, LineTension, double, line.tension);
 lamellaProperty(vtkVesicleDynamics, LineGeodesicModulus, double, line.geodesic_modulus);
 lamellaProperty(vtkVesicleDynamics, LineTorsionModulus, double, line.torsion_modulus);
 lamellaProperty(vtkVesicleDynamics, LineNormalModulus, double, line.normal_modulus);
+lamellaProperty(
+  vtkVesicleDynamics, LineGeodesicSquareModulus, double, line.geodesic_square_modulus);
+lamellaProperty(vtkVesicleDynamics, LineTorsionSquareModulus, double, line.torsion_square_modulus);
+lamellaProperty(vtkVesicleDynamics, LineNormalSquareModulus, double, line.normal_square_modulus);
+lamellaProperty(vtkVesicleDynamics, LinePerpendicularModulus, double, line.perpendicular_modulus);
 lamellaProperty(vtkVesicleDynamics, LineDrag, double, line.drag);
 lamellaProperty(vtkVesicleDynamics, StretchModulus, double, stretch.modulus);
 lamellaChoiceProperty(vtkVesicleDynamics, VolumeConstraint, "volume", "constraint");

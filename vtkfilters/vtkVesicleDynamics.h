@@ -175,6 +175,34 @@ public:
   ///@}
 
   ///@{
+  /** [line] geodesic_square_modulus: kappa_g2: energy per length and square of the geodesic
+   * curvature, without a 1/2. A number from 0 to 1e+30; energy length. Default 0. */
+  void SetLineGeodesicSquareModulus(double value);
+  double GetLineGeodesicSquareModulus();
+  ///@}
+
+  ///@{
+  /** [line] torsion_square_modulus: kappa_tau2: energy per length and square of the geodesic
+   * torsion, without a 1/2. A number from 0 to 1e+30; energy length. Default 0. */
+  void SetLineTorsionSquareModulus(double value);
+  double GetLineTorsionSquareModulus();
+  ///@}
+
+  ///@{
+  /** [line] normal_square_modulus: kappa_n2: energy per length and square of the normal curvature,
+   * without a 1/2. A number from 0 to 1e+30; energy length. Default 0. */
+  void SetLineNormalSquareModulus(double value);
+  double GetLineNormalSquareModulus();
+  ///@}
+
+  ///@{
+  /** [line] perpendicular_modulus: kappa_B: energy per length and curvature B_perp of the membrane
+   * across the boundary. A number from -1e+30 to 1e+30; energy. Default 0. */
+  void SetLinePerpendicularModulus(double value);
+  double GetLinePerpendicularModulus();
+  ///@}
+
+  ///@{
   /** [line] drag: drag of the phase boundary along the membrane, per length, over that of the
    * membrane, per area; 0 stands for the radius of the sphere of the vesicle's area. A number from 0
    * to 1e+30; length. Default 0. */

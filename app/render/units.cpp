@@ -58,6 +58,9 @@ const std::map<std::string_view, std::pair<const char*, const char*>> names{
     {"kg_energy", {"energy of", "*k*_{g}"}},
     {"kn_energy", {"energy of", "*k*_{n}"}},
     {"tau_g_energy", {"energy of", "*τ*_{g}"}},
+    {"kg2_energy", {"energy of", "*k*_{g}²"}},
+    {"kn2_energy", {"energy of", "*k*_{n}²"}},
+    {"tau_g2_energy", {"energy of", "*τ*_{g}²"}},
 };
 
 Notations all_notations() {
@@ -67,7 +70,7 @@ Notations all_notations() {
                 {"c", {"lipid per area,", "*c*"}},
                 {"velocity", {"", "*v*_{N}", "length/time"}}};
   Measures measures;
-  measures.phases.emplace().line_terms = {0, 0, 0, 0};
+  measures.phases.emplace().line_terms = {0, 0, 0, 0, 0, 0, 0};
   measures.stretch.emplace();
   measures.pressure_energy = measures.area_difference_energy = measures.film_energy =
       measures.energy_rise = 0;

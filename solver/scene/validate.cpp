@@ -118,6 +118,8 @@ private:
       why = "is the reduced volume of the sphere: write kind = \"sphere\" and radius";
     else if (key.name == "reduced_volume" && x > 1)
       why = "is more than the sphere's 1, which no closed surface exceeds";
+    else if (key.name.ends_with("_square_modulus") && x < 0)
+      why = "leaves the energy without a lower bound";
     refuse({key.path()}, fmt::format("{} {}; allowed: {}", x, why, allowed_text(key)));
   }
 
@@ -225,9 +227,15 @@ private:
     const Line& line = scene_.line;
     const double kappa = 2 / (1 / scene_.ld.bending_modulus + 1 / scene_.lo.bending_modulus);
     const double torsion = std::abs(line.torsion_modulus), normal = std::abs(line.normal_modulus);
+    if (line.perpendicular_modulus != 0)
+      refuse({"line.perpendicular_modulus"},
+             "the energy has no lower bound: bending moduli do not control the curvature across a "
+             "line, only a modulus of the gradient of K_M would; allowed: 0");
     if (torsion == 0 && normal == 0) return;
-    const double unstable = std::numbers::pi / 2 * (torsion * torsion + normal * normal) / kappa;
-    const double least = unstable / (longest_unstable_wave * scene_.grid().spacing);
+    const double unstable = std::numbers::pi / 2 * (torsion * torsion + normal * normal) / kappa,
+                 shortest = longest_unstable_wave * scene_.grid().spacing,
+                 k = 2 * std::numbers::pi / shortest,
+                 least = unstable / shortest - 2 * line.geodesic_square_modulus * k * k;
     if (line.tension >= least * (1 - rounding)) return;
     constexpr double rounded_up = 1.005; // to three digits
     refuse({torsion > normal ? "line.torsion_modulus" : "line.normal_modulus", "line.tension"},

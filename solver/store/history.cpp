@@ -58,7 +58,10 @@ std::vector<std::pair<std::string_view, std::optional<double>*>> optional_terms(
   terms.insert(terms.end(), {{"line_tension_energy", &line.tension},
                              {"kg_energy", &line.geodesic},
                              {"kn_energy", &line.normal},
-                             {"tau_g_energy", &line.torsion}});
+                             {"tau_g_energy", &line.torsion},
+                             {"kg2_energy", &line.geodesic_square},
+                             {"kn2_energy", &line.normal_square},
+                             {"tau_g2_energy", &line.torsion_square}});
   return terms;
 }
 

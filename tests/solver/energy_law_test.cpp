@@ -103,8 +103,12 @@ std::vector<Kind> kinds() {
   std::vector<Kind> all;
   auto add = [&](const char* name, Scene scene, auto&& set) {
     set(scene);
-    // Forces of moduli that jump swing to and fro across the strip along the boundary.
-    const bool jump = !(scene.ld == scene.lo) || scene.line.geodesic_modulus != 0;
+    // Forces of moduli that jump swing to and fro across the strip along the boundary, and so do
+    // couples; those of squares are stiff, and steps lag behind.
+    const Line& line = scene.line;
+    const bool jump = !(scene.ld == scene.lo) || line.geodesic_modulus != 0 ||
+                      line.geodesic_square_modulus != 0 || line.torsion_square_modulus != 0 ||
+                      line.normal_square_modulus != 0;
     all.push_back({name, scene, jump ? 0.12 : 0.04});
   };
   add("bending", one_phase(1.5e-4), [](Scene&) {});
@@ -150,6 +154,18 @@ std::vector<Kind> kinds() {
   });
   add("normal modulus", two_phases(1.5e-4), [](Scene& s) {
     s.line.normal_modulus = 1.5;
+    s.line.tension = 20;
+  });
+  add("geodesic square modulus", two_phases(1.5e-4), [](Scene& s) {
+    s.line.geodesic_square_modulus = 0.5;
+    s.line.tension = 5;
+  });
+  add("torsion square modulus", two_phases(1.5e-4), [](Scene& s) {
+    s.line.torsion_square_modulus = 0.2;
+    s.line.tension = 20;
+  });
+  add("normal square modulus", two_phases(1.5e-4), [](Scene& s) {
+    s.line.normal_square_modulus = 0.1;
     s.line.tension = 20;
   });
   add("stretch of two phases", two_phases(1.5e-4), [](Scene& s) {

@@ -32,6 +32,19 @@ Scene sphere_with_everything(double radius) {
   return scene;
 }
 
+TEST(EnergyTerms, OfSquaresOnASphereAreExact) {
+  Scene scene = sphere_with_everything(0.6);
+  scene.line = {.torsion_modulus = 0,
+                .geodesic_square_modulus = 0.5,
+                .torsion_square_modulus = 2,
+                .normal_square_modulus = 0.25};
+  const double L = 2 * pi * 0.6 * std::sqrt(0.75), kg = -0.5 / (0.6 * std::sqrt(0.75));
+  const LineTerms line = Simulation(scene).measures().phases->line_terms;
+  EXPECT_NEAR(*line.geodesic_square, 0.5 * kg * kg * L, 1e-3); // measured
+  EXPECT_NEAR(*line.normal_square, 0.25 / (0.6 * 0.6) * L, 1e-3);
+  EXPECT_NEAR(*line.torsion_square, 0, 1e-6);
+}
+
 TEST(EnergyTerms, OfACapOnASphereAreExact) {
   const double r = 0.6, cosine = 0.5, sine = std::sqrt(0.75), L = 2 * pi * r * sine;
   const Measures m = Simulation(sphere_with_everything(r)).measures();

@@ -91,6 +91,18 @@ TEST(Restart, IsExactWithTwoPhases) {
   EXPECT_EQ(restarts_that_agree(scene, 30, at_steps({1, 6, 19})), 3);
 }
 
+TEST(Restart, IsExactWithAllLineModuli) {
+  Scene scene = builtin_on("fig9", 40);
+  scene.line = {.tension = 30,
+                .geodesic_modulus = 0.5,
+                .torsion_modulus = 0.5,
+                .normal_modulus = -1,
+                .geodesic_square_modulus = 0.5,
+                .torsion_square_modulus = 0.3,
+                .normal_square_modulus = 0.4};
+  EXPECT_EQ(restarts_that_agree(scene, 30, at_steps({1, 6, 19})), 3);
+}
+
 TEST(Restart, IsExactWithStretch) {
   Scene scene = builtin_on("fig9", 32);
   scene.stretch.modulus = 1000;

@@ -144,6 +144,9 @@ tension = 30
 geodesic_modulus = 0.1
 torsion_modulus = -0.2
 normal_modulus = 0.3
+geodesic_square_modulus = 0.4
+torsion_square_modulus = 0.5
+normal_square_modulus = 0.6
 [stretch]
 modulus = 1000
 )",
@@ -157,7 +160,7 @@ modulus = 1000
   expected.curvature_start_time = 1e-3;
   expected.ld = {2, -3, 3.6};
   expected.lo = {10, 4, -1};
-  expected.line = {30, 0.1, -0.2, 0.3};
+  expected.line = {30, 0.1, -0.2, 0.3, 0.4, 0.5, 0.6};
   expected.stretch.modulus = 1000;
   EXPECT_EQ(scene, expected);
 }
