@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Sharp-interface axisymmetric equilibria of two-phase vesicles: the source of data/reference/two_phase_more.csv.
 
-Makes  E = sum_i [kappa_i/2 int (K_M - C_i)^2 dA + kG_i int K dA] + oint (kappa_l + kappa_g kg + kappa_n kn) dl
-stationary at fixed V, A_Ld and A_Lo.  K_M = -2 on the unit sphere; kg < 0 on a small circle around an Ld cap.
+Makes  E = sum_i [kappa_i/2 int (K_M - C_i)^2 dA + kG_i int K dA] + oint (kappa_l + kappa_g kg + kappa_n kn
++ kappa_g2 kg^2 + kappa_n2 kn^2) dl  stationary at fixed V, A_Ld and A_Lo.  K_M = -2 on the unit sphere; kg < 0 on a small circle around an Ld cap.
 
     python3 two_phase_axisymmetric.py                 the table of data/reference
     python3 two_phase_axisymmetric.py C1 C9           the rows of some cases
@@ -56,6 +56,8 @@ class Case:
     C: tuple = (0.0, 0.0)
     kg: float = 0.0
     kn: float = 0.0
+    kg2: float = 0.0
+    kn2: float = 0.0
     radius: float = RADIUS
 
     def area(self):
@@ -79,6 +81,9 @@ CASES = [
     Case("C9_x0.2_v0.90_kl30_CLd-3", 0.2, 0.9, 30, C=(-3, 0)),
     Case("C10_x0.56_v0.76_kl70_k5_kG3.6", 0.56, 0.76, 70, kappa=(1, 5), kG=(3.6, 0)),
     Case("C11_x0.2_v0.95_kl10_k10", 0.2, 0.95, 10, kappa=(1, 10)),
+    Case("C12_x0.2_v0.90_kl30_kgg1", 0.2, 0.9, 30, kg2=1),
+    Case("C13_x0.2_v0.90_kl30_knn0.3", 0.2, 0.9, 30, kn2=0.3),
+    Case("C14_x0.3_v0.85_kl20_all", 0.3, 0.85, 20, kg=0.5, kn=-1, kg2=0.5, kn2=0.4),
 ]
 
 
@@ -152,10 +157,14 @@ class Problem:
         k = self.case
         c0, l0, c1, l1, m = self.split(y)
         P, s0, s1, f_r, f_psi = (m[..., j] for j in range(5))
-        psib = c0.sum(-1)
-        # oint = 2 pi (kl r - kg cos psi - kn sin psi); int K dA = 2 pi (1 - cos psi) and 2 pi (1 + cos psi)
-        line_psi = 2 * PI * ((k.kG[0] - k.kG[1] + k.kg) * np.sin(psib) - k.kn * np.cos(psib))
-        a = phase_gradient(self.basis, c0, l0, k.kappa[0], k.C[0], s0, P, f_r + 2 * PI * k.kl, f_psi + line_psi)
+        rb, psib = meridian(self.basis, c0, l0)[3:]
+        S, C = np.sin(psib), np.cos(psib)
+        # oint = 2 pi (kl r - kg cos psi - kn sin psi + (kg2 cos^2 psi + kn2 sin^2 psi) / r);
+        # int K dA = 2 pi (1 - cos psi) and 2 pi (1 + cos psi)
+        line_psi = (k.kG[0] - k.kG[1] + k.kg) * S - k.kn * C + 2 * (k.kn2 - k.kg2) * S * C / rb
+        line_r = k.kl - (k.kg2 * C * C + k.kn2 * S * S) / (rb * rb)
+        d_rb, d_psib = f_r + 2 * PI * line_r, f_psi + 2 * PI * line_psi
+        a = phase_gradient(self.basis, c0, l0, k.kappa[0], k.C[0], s0, P, d_rb, d_psib)
         b = phase_gradient(self.basis, c1, l1, k.kappa[1], k.C[1], s1, P, -f_r, f_psi)
         area = k.area()
         constraints = (-(a[3] + b[3] - k.volume()), a[2] - area[0], b[2] - area[1], a[4] - b[4], a[5] + b[5] - PI)
@@ -245,13 +254,15 @@ class Problem:
         out["E_line"] = 2 * PI * k.kl * r_b
         out["E_G"] = 2 * PI * (k.kG[0] * (1 - cb) + k.kG[1] * (1 + cb))
         out["E_kg"], out["E_kn"] = -2 * PI * k.kg * cb, -2 * PI * k.kn * sb
+        out["E_kg2"], out["E_kn2"] = 2 * PI * k.kg2 * cb * cb / r_b, 2 * PI * k.kn2 * sb * sb / r_b
         out["E_total"] = sum(out.values())
         out.update(r_boundary=r_b, P=m[0], sigma_Ld=m[1], sigma_Lo=m[2])
         out.update(psi_boundary_deg=np.degrees(psi_b), r_neck_min=min(necks, default=np.nan))
         return out
 
     def scale_identity(self, y):
-        """3 P V - 2 sum sigma A - kappa_l L - (what C contributes), relative to 3 P V; zero at equilibrium."""
+        """3 P V - 2 sum sigma A - kappa_l L + E_kg2 + E_kn2 - (what C contributes), relative to 3 P V; zero at
+        equilibrium."""
         k, total = self.case, 0.0
         c0, l0, c1, l1, m = self.split(y)
         for i, (c, l) in enumerate(((c0, l0), (c1, l1))):
@@ -259,13 +270,15 @@ class Problem:
             q = p + np.sin(psi) / r + k.C[i]
             total += 2 * PI * k.kappa[i] * k.C[i] * l * (r * q) @ self.basis.w  # lambda d/dlambda of C/size
         pv = 3 * m[0] * k.volume()
-        return (pv - 2 * (m[1:3] @ k.area()) - self.energies(y)["E_line"] - total) / abs(pv)
+        e = self.energies(y)
+        return (pv - 2 * (m[1:3] @ k.area()) - e["E_line"] + e["E_kg2"] + e["E_kn2"] - total) / abs(pv)
 
     def strong_form(self, y):
         """Residuals of the Euler-Lagrange equations with the force law of the sharp interface: the largest
         |r f_N| over both phases, and at the boundary the couple, normal and tangential force.  Where B_perp jumps,
         the tangential force is -[kappa/2 (K_M-C)^2] + [kappa (K_M-C) B_perp] + sigma_Lo - sigma_Ld + kl kg:
-        with the couple zero and B_perp continuous this is Eq. 89."""
+        with the couple zero and B_perp continuous this is Eq. 89. The square moduli add what
+        docs/theory.md says with l_kg = 2 kg2 kg and l_kn = 2 kn2 kn, constant along the boundary."""
         k = self.case
         c0, l0, c1, l1, m = self.split(y)
         bulk, ends = 0.0, []
@@ -283,9 +296,11 @@ class Problem:
         rb, psib = meridian(self.basis, c0, l0)[3:]
         kn, kg = -np.sin(psib) / rb, -np.cos(psib) / rb
         (h0, d0, k0, b0), (h1, d1, k1, b1) = ends
-        couple = k0 * h0 - k1 * h1 + (k.kG[0] - k.kG[1] + k.kg) * kn - k.kn * kg
-        normal = k0 * d0 - k1 * d1 + k.kl * kn
-        tangential = -(k0 * h0**2 - k1 * h1**2) / 2 + k0 * h0 * b0 - k1 * h1 * b1 + m[2] - m[1] + k.kl * kg
+        l_kg, l_kn = k.kg + 2 * k.kg2 * kg, k.kn + 2 * k.kn2 * kn
+        stretch = k.kl - k.kg2 * kg * kg - k.kn2 * kn * kn
+        couple = k0 * h0 - k1 * h1 + (k.kG[0] - k.kG[1] + l_kg) * kn - l_kn * kg
+        normal = k0 * d0 - k1 * d1 + stretch * kn
+        tangential = -(k0 * h0**2 - k1 * h1**2) / 2 + k0 * h0 * b0 - k1 * h1 * b1 + m[2] - m[1] + stretch * kg
         return bulk, couple, normal, tangential
 
 
@@ -332,7 +347,9 @@ def polygon_energy(case, n):
     def energy(u):
         a, b = parts(u)
         cb, sb = np.cos(a[4]), np.sin(a[4])
-        line = case.kl * (a[3] + b[3]) / 2 - case.kg * cb - case.kn * sb + case.kG[0] * (1 - cb) + case.kG[1] * (1 + cb)
+        rb = (a[3] + b[3]) / 2
+        line = case.kl * rb - case.kg * cb - case.kn * sb + case.kG[0] * (1 - cb) + case.kG[1] * (1 + cb)
+        line = line + (case.kg2 * cb * cb + case.kn2 * sb * sb) / rb
         return a[0] + b[0] + 2 * PI * line
 
     def constraints(u):
@@ -376,7 +393,7 @@ def polygon_minimum(case, n):
 
 def check_gradient():
     """Largest relative difference between the coded gradient and complex steps of E + the multiplied constraints."""
-    case = replace(CASES[0], kappa=(1.3, 2.1), kG=(0.7, -0.4), C=(-1.1, 0.6), kg=0.9, kn=-1.7)
+    case = replace(CASES[0], kappa=(1.3, 2.1), kG=(0.7, -0.4), C=(-1.1, 0.6), kg=0.9, kn=-1.7, kg2=0.4, kn2=1.3)
     problem = Problem(case, 8)
     y = problem.start() + 0.01 * np.cos(np.arange(23.0))
     y[-5:] = 3, -2, 5, 7, -4
@@ -394,6 +411,7 @@ def check_gradient():
         (a0, v0, r0, p0), (a1, v1, r1, p1) = parts
         cb, sb = np.cos(p0), np.sin(p0)
         line = case.kl * r0 - case.kg * cb - case.kn * sb + case.kG[0] * (1 - cb) + case.kG[1] * (1 + cb)
+        line = line + (case.kg2 * cb * cb + case.kn2 * sb * sb) / r0
         total += 2 * PI * line - m[0] * (v0 + v1 - case.volume()) + m[1] * (a0 - A[0]) + m[2] * (a1 - A[1])
         return total + m[3] * (r0 - r1) + m[4] * (p0 + p1 - PI)
 
@@ -445,15 +463,17 @@ RESULTS = "E_total E_line E_bend_Ld E_bend_Lo E_G r_boundary P sigma_Ld sigma_Lo
 
 
 def csv(cases):
-    """The columns of two_phase.csv, then the line energies of kappa_g and kappa_n and the case's parameters."""
-    given = "x,v,kappa_l,kappa_Ld,kappa_Lo,kG_Ld,kG_Lo,kappa_g,kappa_n,C_Ld,C_Lo"
-    print("case,mode," + ",".join(RESULTS) + ",drift_U,max_error_estimate,E_kg,E_kn," + given)
+    """The columns of two_phase.csv, then the line energies of the other moduli of the boundary and the case's
+    parameters."""
+    given = "x,v,kappa_l,kappa_Ld,kappa_Lo,kG_Ld,kG_Lo,kappa_g,kappa_n,C_Ld,C_Lo,kappa_g2,kappa_n2"
+    of_line = "E_kg,E_kn,E_kg2,E_kn2"
+    print("case,mode," + ",".join(RESULTS) + f",drift_U,max_error_estimate,{of_line},{given}")
     for k in cases:
         e, change = solve_with_errors(k)
         error = max(change[name] for name in RESULTS[:9])
         values = ["%.8g" % (e[name] + 0.0) for name in RESULTS] + ["0", "%.1e" % error]
-        values += ["%.8g" % (e[name] + 0.0) for name in ("E_kg", "E_kn")]
-        values += ["%g" % t for t in (k.x, k.v, k.kl, *k.kappa, *k.kG, k.kg, k.kn, *k.C)]
+        values += ["%.8g" % (e[name] + 0.0) for name in of_line.split(",")]
+        values += ["%g" % t for t in (k.x, k.v, k.kl, *k.kappa, *k.kG, k.kg, k.kn, *k.C, k.kg2, k.kn2)]
         print(",".join([k.name, "variational", *values]))
 
 

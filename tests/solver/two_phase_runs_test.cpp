@@ -123,6 +123,36 @@ TEST(BulgedCap, FeelsTheNormalCurvatureOfItsBoundary) {
   EXPECT_NEAR(end.phases->line_energy, 90.27155 - 12.08238, 0.4);
 }
 
+TEST(BulgedCap, FeelsTheSquareOfTheGeodesicCurvature) {
+  Scene scene = bulged_cap(48);
+  scene.line.geodesic_square_modulus = 1;
+  const Measures end = run(scene).back();
+  EXPECT_NEAR(end.energy, 126.57022, 0.09); // measured + .066, of which .050 without the modulus
+  EXPECT_NEAR(*end.phases->line_terms.geodesic_square, 0.64946, 0.04); // + .023
+  EXPECT_NEAR(end.phases->line_radius, 0.47998, 2e-3);
+}
+
+/// Case C14: kappa_g, kappa_n and both squares.
+TEST(BulgedCap, RestsInTheExactEquilibriumOfMixedLineModuli) {
+  Scene scene = bulged_cap(48);
+  scene.domains.area_fraction = 0.3;
+  scene.volume.ramp.targets = {0.85};
+  scene.line = {.tension = 20,
+                .geodesic_modulus = 0.5,
+                .normal_modulus = -1,
+                .geodesic_square_modulus = 0.5,
+                .normal_square_modulus = 0.4,
+                .drag = 1};
+  const std::vector<Measures> history = run(scene);
+  const Measures& end = history.back();
+  EXPECT_LE(largest_rise_after(2e-3, history), 1e-3);
+  EXPECT_NEAR(end.energy, 108.61714, 0.06); // measured + .039
+  EXPECT_NEAR(*end.phases->line_terms.geodesic_square, 0.73954, 0.01);
+  EXPECT_NEAR(*end.phases->line_terms.normal_square, 4.49365, 0.02);
+  EXPECT_NEAR(*end.phases->line_terms.normal, 5.90639, 0.01);
+  EXPECT_NEAR(end.phases->line_radius, 0.49423, 1.5e-3);
+}
+
 TEST(EqualHalves, RestInTheExactEquilibrium) {
   const Scene scene = equal_halves(40);
   const std::vector<Measures> history = run(scene);
