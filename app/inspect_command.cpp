@@ -62,6 +62,19 @@ std::string measures_rows(const Measures& m) {
                                             m.components == 1 ? "" : "s", m.genus));
 }
 
+/// Those that there are at a time.
+std::string vesicles_rows(std::span<const ComponentMeasures> all, double time) {
+  std::string text;
+  for (const ComponentMeasures& m : all)
+    if (m.time == time)
+      text += row(fmt::format("vesicle {}", m.component),
+                  fmt::format("at ({:.4g}, {:.4g}, {:.4g}), area {:.8g}, volume {:.8g}, reduced "
+                              "{:.6g}, P {:.6g}, sigma {:.6g}",
+                              m.center[0], m.center[1], m.center[2], m.area, m.volume,
+                              m.reduced_volume, m.P, m.sigma));
+  return text;
+}
+
 std::string events_rows(std::span<const Event> events, double spacing) {
   if (events.empty()) return row("events", "none");
   std::string text = row("events", std::to_string(events.size()));
@@ -135,6 +148,7 @@ std::string folder_text(const fs::path& folder) {
                                               rows.back().reduced_volume));
     text += row("topology", fmt::format("{} component{}, genus {}", rows.back().components,
                                         rows.back().components == 1 ? "" : "s", rows.back().genus));
+    text += vesicles_rows(read_components(folder / "components.csv"), rows.back().time);
   }
   text += events_rows(read_events(folder / "events.csv"), scene.grid().spacing);
   text += files_row("frames", stored_frames(folder));

@@ -65,7 +65,7 @@ SimulationState branched(SimulationState state, std::span<const Key* const> chan
   forget(state.stepper);
   if (state.psi_stepper) forget(*state.psi_stepper);
   if (state.c_stepper) forget(*state.c_stepper);
-  state.excess.setZero();
+  std::ranges::fill(state.excess, 0.0);
   state.error = state.last_dt = state.response_dt = 0;
   state.failures = 0;
   state.driven = 1;

@@ -39,7 +39,9 @@ public:
   Run(const RunOptions& options, const Scene& scene, Simulation& simulation, RunFolder& folder,
       Course course, const Resumed& resumed, std::string origin = {})
       : options_(options), scene_(scene), sim_(simulation), folder_(folder),
-        course_(std::move(course)), loop_(simulation, scene, resumed), origin_(std::move(origin)) {}
+        course_(std::move(course)), loop_(simulation, scene, resumed), origin_(std::move(origin)) {
+    note_vesicles();
+  }
 
   enum class Beginning { scene, branch, checkpoint };
   /// To its end, with the state there as its last frame. Returns an ExitCode.
@@ -47,6 +49,8 @@ public:
 
 private:
   void store_start(bool is_branch);
+  void note_vesicles();
+  void store_measures();
   void store_frame(bool can_go_on);
   void store_checkpoint();
   Checkpoint checkpoint() const;
@@ -61,6 +65,7 @@ private:
   Simulation& sim_;
   RunFolder& folder_;
   Course course_;
+  std::vector<ComponentMeasures> vesicles_; ///< after the last step; none where there is one
   TimeLoop loop_;
   std::string origin_;         ///< of a branch
   double checkpoint_time_ = 0; ///< wall-clock time of the last one
@@ -70,8 +75,19 @@ RunStatus Run::status(RunStatus::State state, const std::string& reason) const {
   return {state, reason, sim_.time(), loop_.wall_seconds(), thread_count(), {}, origin_};
 }
 
-void Run::store_start(bool is_branch) {
+void Run::note_vesicles() {
+  vesicles_.clear();
+  if (sim_.vesicles() > 1) vesicles_ = sim_.component_measures();
+}
+
+void Run::store_measures() {
   folder_.add(sim_.measures());
+  note_vesicles();
+  folder_.add(vesicles_);
+}
+
+void Run::store_start(bool is_branch) {
+  store_measures();
   folder_.add_new(sim_.events());
   store_frame(false);                // what leads here is the scene
   if (is_branch) store_checkpoint(); // its scene alone does not
@@ -102,7 +118,7 @@ Checkpoint Run::checkpoint() const {
 
 void Run::store_step(bool frame_is_due) {
   course_.add(sim_.measures());
-  folder_.add(sim_.measures());
+  store_measures();
   folder_.add_new(sim_.events());
   if (frame_is_due) store_frame(true);
   const double since = loop_.wall_seconds() - checkpoint_time_;
@@ -183,8 +199,8 @@ void Run::finish(const Outcome& outcome) {
   const RunStatus::State state = outcome.code == success     ? RunStatus::State::finished
                                  : outcome.code == resumable ? RunStatus::State::interrupted
                                                              : RunStatus::State::stopped;
-  folder_.write_summary(
-      summary(scene_, course_, sim_.events(), outcome, sim_.ramping(), loop_.wall_seconds()));
+  folder_.write_summary(summary(scene_, course_, sim_.events(), outcome, sim_.ramping(),
+                                loop_.wall_seconds(), vesicles_));
   folder_.write(status(state, outcome.reason));
   report(outcome);
 }

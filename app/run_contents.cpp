@@ -28,8 +28,9 @@ std::string checkpoint(long steps) { return fmt::format("checkpoint_{:08}.hdf", 
 
 namespace {
 
-constexpr std::array own_files{"figure.png",  "energy.png", names::summary, names::history,
-                               names::events, names::scene, names::start,   names::status};
+constexpr std::array own_files{"figure.png",   "energy.png",  names::summary,
+                               names::history, names::events, names::components,
+                               names::scene,   names::start,  names::status};
 constexpr std::array results{"figure.png", "energy.png", names::summary};
 
 bool is_any_of(std::string_view name, std::span<const char* const> all) {
@@ -121,6 +122,7 @@ void erase_if(const Folder& run, const char* inner,
 void check_fit(const fs::path& folder, const Checkpoint& checkpoint) {
   read_marked(folder / names::history, checkpoint.history);
   read_marked(folder / names::events, checkpoint.events);
+  read_marked(folder / names::components, checkpoint.components);
   for (std::size_t i = 0; i < checkpoint.frame_times.size(); i++) {
     const fs::path file = folder / names::frames / names::frame(i);
     if (read_frame(file).time != checkpoint.frame_times[i])
@@ -202,6 +204,7 @@ Resumption find_checkpoint(const fs::path& folder) {
 void check_stored_files(const fs::path& folder) {
   read_history(folder / names::history);
   read_events(folder / names::events);
+  read_components(folder / names::components);
   for (const fs::path& frame : stored_frames(folder)) read_frame(frame);
 }
 

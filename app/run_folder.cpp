@@ -57,14 +57,18 @@ RunFolder::RunFolder(OutputFolder folder, const Simulation& now, const Checkpoin
 }
 
 void RunFolder::open_tables(const Simulation& now, const Checkpoint* from) {
-  const fs::path history = path() / names::history, events = path() / names::events;
+  const fs::path history = path() / names::history, events = path() / names::events,
+                 components = path() / names::components;
+  const ComponentMeasures vesicle = now.component_measures().front();
   frames_ = folder_->inner(names::frames);
   if (from) {
     history_.emplace(history, now.measures(), from->history);
     events_.emplace(events, Event{}, from->events);
+    components_.emplace(components, vesicle, from->components);
   } else {
     history_.emplace(history, now.measures());
     events_.emplace(events);
+    components_.emplace(components, vesicle);
   }
 }
 
@@ -93,6 +97,10 @@ void RunFolder::add_frame(Frame frame, Checkpoint checkpoint) {
   });
 }
 
+void RunFolder::add(std::span<const ComponentMeasures> vesicles) {
+  for (const ComponentMeasures& vesicle : vesicles) components_->add(vesicle);
+}
+
 void RunFolder::add_new(std::span<const Event> all) {
   for (; event_count_ < all.size(); event_count_++) events_->add(all[event_count_]);
 }
@@ -102,6 +110,7 @@ void RunFolder::note_in(Checkpoint& checkpoint) const {
   checkpoint.scene = scene_text_;
   checkpoint.history = history_->mark();
   checkpoint.events = events_->mark();
+  checkpoint.components = components_->mark();
   for (const SeriesEntry& entry : series_) checkpoint.frame_times.push_back(entry.time);
 }
 
@@ -109,6 +118,7 @@ void RunFolder::add_checkpoint(const Frame& frame, Checkpoint checkpoint) {
   writing_.wait();
   history_->synchronise();
   events_->synchronise();
+  components_->synchronise();
   note_in(checkpoint);
   const Folder inner = folder_->inner(names::checkpoints);
   const std::string name = names::checkpoint(checkpoint.state.steps);

@@ -21,7 +21,8 @@ namespace lamella {
 ///   status.toml             what became of it, for programs
 ///   history.csv             one row a step
 ///   events.csv              one row an event
-///   frames/frame_0000.hdf   stored states, frames/frames.hdf.series for ParaView
+///   components.csv          one row a step and vesicle, of several that hold something of their
+///   own frames/frame_0000.hdf   stored states, frames/frames.hdf.series for ParaView
 ///   checkpoints/checkpoint_00000123.hdf   after so many steps, all it takes to go on; the last two
 ///   figure.png, energy.png  pictures
 ///   summary.txt             the outcome in words
@@ -39,6 +40,7 @@ public:
   RunFolder(OutputFolder folder, const Simulation& now, const Checkpoint* from);
 
   void add(const Measures& measures) { history_->add(measures); }
+  void add(std::span<const ComponentMeasures> vesicles);
   /// Writes it while the caller goes on. What fails is thrown by the next call that stores a frame,
   /// a checkpoint, the summary or the status.
   void add_frame(Frame frame);
@@ -67,6 +69,7 @@ private:
   std::string scene_text_; ///< scene.toml as the run has it
   std::optional<HistoryWriter> history_;
   std::optional<EventWriter> events_;
+  std::optional<ComponentWriter> components_;
   std::size_t event_count_ = 0;
   std::vector<SeriesEntry> series_;
   Background writing_; // the last member: all else is there until it is done

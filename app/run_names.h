@@ -6,8 +6,9 @@
 namespace lamella::run_names {
 
 inline constexpr const char *scene = "scene.toml", *start = "start.hdf", *history = "history.csv",
-                            *events = "events.csv", *summary = "summary.txt",
-                            *status = "status.toml", *series = "frames.hdf.series";
+                            *events = "events.csv", *components = "components.csv",
+                            *summary = "summary.txt", *status = "status.toml",
+                            *series = "frames.hdf.series";
 inline constexpr const char *frames = "frames", *checkpoints = "checkpoints",
                             *surfaces = "surfaces"; ///< folders
 

@@ -103,6 +103,18 @@ std::string table(const Scene& scene, const Measures& start, const Measures& end
   return text + row("genus", "", start.genus, end.genus);
 }
 
+/// Those that are there at the end, each with what it holds.
+std::string vesicle_table(std::span<const ComponentMeasures> vesicles) {
+  std::string text = fmt::format("\n{:<9} {:^29} {:>12} {:>12} {:>10} {:>12} {:>12}\n", "Vesicles",
+                                 "centre", "V", "A", "v", "P", "sigma");
+  for (const ComponentMeasures& m : vesicles)
+    text += fmt::format("{:<9} {:>9.4f} {:>9.4f} {:>9.4f} {:>12.6g} {:>12.6g} {:>10.5f} {:>12.6g} "
+                        "{:>12.6g}\n",
+                        m.component, m.center[0], m.center[1], m.center[2], m.volume, m.area,
+                        m.reduced_volume, m.P, m.sigma);
+  return text;
+}
+
 /// The end time that a scene has by default.
 double fitting_end(Scene scene) {
   scene.end_time = 0;
@@ -194,7 +206,8 @@ std::string word_on_end_time(const Scene& scene, const Course& course, bool ramp
 }
 
 std::string summary(const Scene& scene, const Course& course, std::span<const Event> events,
-                    const Outcome& outcome, bool ramping, double seconds) {
+                    const Outcome& outcome, bool ramping, double seconds,
+                    std::span<const ComponentMeasures> vesicles) {
   const Grid grid = scene.grid();
   std::string text = fmt::format("{}\nscene {}, {} x {} x {} nodes, spacing {:.5g}\n\n",
                                  scene.title.empty() ? scene.name : scene.title, scene.name,
@@ -206,6 +219,7 @@ std::string summary(const Scene& scene, const Course& course, std::span<const Ev
   text += fmt::format("\nLargest drift over the run: area {:.1e}, volume {:.1e} (relative)\n",
                       course.area_drift(), course.volume_drift());
   text += rise_text(course);
+  if (vesicles.size() > 1) text += vesicle_table(vesicles);
   if (!events.empty()) text += "\nEvents\n";
   for (const Event& event : events) text += fmt::format("  {}\n", to_text(event, grid.spacing));
   const std::string warning = caution(events);

@@ -58,8 +58,9 @@ std::string caution(std::span<const Event> events);
 /// ramp (`ramping`) is still under way. Empty where it fits.
 std::string word_on_end_time(const Scene& scene, const Course& course, bool ramping);
 
-/// The text of summary.txt.
+/// The text of summary.txt. `vesicles`: at the end; one is not listed.
 std::string summary(const Scene& scene, const Course& course, std::span<const Event> events,
-                    const Outcome& outcome, bool ramping, double seconds);
+                    const Outcome& outcome, bool ramping, double seconds,
+                    std::span<const ComponentMeasures> vesicles = {});
 
 } // namespace lamella

@@ -113,7 +113,7 @@ vtkVesicleDynamics::vtkVesicleDynamics()
   : Scene(std::make_unique<lamella::PropertyScene>())
   , Round(std::make_unique<lamella::UpdateRound>())
 {
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
 }
 
 vtkVesicleDynamics::~vtkVesicleDynamics() = default;

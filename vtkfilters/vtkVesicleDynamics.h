@@ -50,6 +50,9 @@
  * `kind` is text (fission, rupture, fusion, vanished, recentred, domains_merged, domain_parted,
  * domain_vanished, sharp, thin_inside, thin_outside), all others double; (`x`, `y`, `z`) is the place.
  *
+ * Output 3: vtkTable, a row for each vesicle at the steps of output 1, while there are several that hold
+ * something of their own (VolumeOf, AreaOf), with the columns of components.csv, all of them double.
+ *
  * T. Zhang, C. W. Wolgemuth, J. Comput. Phys. 450 (2022) 110815.
  *
  * @sa vtkVesicleSource vtkVesicleFromImage vtkVesicleFromSurface vtkMembraneSurface

@@ -42,7 +42,7 @@ const lamella::Measures& RowAt(const std::vector<lamella::Measures>& history, do
 vtkVesicleRunReader::vtkVesicleRunReader()
 {
   this->SetNumberOfInputPorts(0);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
 }
 
 int vtkVesicleRunReader::CanReadFile(const char* name)
@@ -110,6 +110,8 @@ int vtkVesicleRunReader::RequestData(
         *vtkImageData::GetData(output, 0), lamella::read_frame(file), RowAt(history, time), scene);
       lamella::fill_history(*vtkTable::GetData(output, 1), history);
       lamella::fill_events(*vtkTable::GetData(output, 2), lamella::read_events(run.events));
+      lamella::fill_components(
+        *vtkTable::GetData(output, 3), lamella::read_components(run.components));
     });
 }
 

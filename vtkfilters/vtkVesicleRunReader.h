@@ -10,6 +10,7 @@
  * measures of the state and the parameters of the membrane.
  * Output 1: vtkTable, the whole history as stored, a row for the start and every step.
  * Output 2: vtkTable, all events, as of vtkVesicleDynamics.
+ * Output 3: vtkTable, the vesicles where there are several, as of vtkVesicleDynamics.
  *
  * A file that is missing or damaged is an error that names it.
  *

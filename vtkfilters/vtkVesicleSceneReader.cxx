@@ -32,7 +32,7 @@ vtkVesicleSceneReader::vtkVesicleSceneReader()
   : Round(std::make_unique<lamella::UpdateRound>())
 {
   this->SetNumberOfInputPorts(0);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
 }
 
 vtkVesicleSceneReader::~vtkVesicleSceneReader() = default;

@@ -104,6 +104,13 @@ class Run:
         ("fission", "rupture", ...), `t`, `x`, `y`, `z`, `size`, ..."""
         return records(self._table(2))
 
+    @property
+    def components(self):
+        """Each of several vesicles in these steps: dict of float64 arrays, shape (rows,), named as the
+        columns of components.csv, `t`, `component`, `x`, `y`, `z`, `V`, `A`, `P`, `sigma`, ...; a row a
+        step and vesicle, none while there is one, or where [volume] and [area] are of all together."""
+        return arrays(self._table(3))
+
     def _table(self, port):
         """A copy."""
         with alone([self.reader]):

@@ -84,8 +84,10 @@ struct ComponentMeasures {
   double reduced_volume = 0; ///< V / (4/3 pi Rs^3), Rs = sqrt(A / 4 pi)
   double P = 0, sigma = 0;   ///< with phases, sigma is their mean by area
   double K_multiplier = 0;
-  double int_KM = 0;             ///< int K_M dA
-  std::optional<double> area_Ld; ///< where the scene has domains
+  double int_KM = 0;               ///< int K_M dA
+  std::optional<double> area_Ld{}; ///< where the scene has domains
+
+  bool operator==(const ComponentMeasures&) const = default;
 };
 
 /// One term of an energy, named so as to complete "most of it is ...".

@@ -62,7 +62,7 @@ Simulation::Simulation(const Scene& scene, const Start& start)
   if (scene.has_phases()) psi_stepper_.emplace(scene.grid(), fourier_, 0);
   if (vesicle_.stretch()) c_stepper_.emplace(scene.grid(), fourier_, 0);
   if (vesicle_.drift(0) > hopeless_drift) throw RunError(why_not_kept());
-  measures_ = vesicle_.measures(0);
+  note(vesicle_.measures(0));
   topology_ = {measures_.components, measures_.genus};
   check(measures_);
   find_narrow_places();
@@ -141,7 +141,7 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
   check(now);
   excess_ = excess_.cols() == excess.cols() ? Quantities(memory * excess_ + excess) : excess;
   steps_++;
-  measures_ = now;
+  note(now);
   broken_ = false;
   driven_ = 0;
   return {};

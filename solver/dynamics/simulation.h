@@ -61,8 +61,12 @@ public:
   /// The step that the error control would take next.
   double next_dt() const;
   const Measures& measures() const { return measures_; }
-  /// Of each vesicle; of one, what is held by all together counts as its own.
-  std::vector<ComponentMeasures> component_measures() const;
+  /// How many vesicles there are that hold something of their own, and the measures of each, after
+  /// a step that did not fail.
+  int vesicles() const { return vesicle_.components().count(); }
+  std::vector<ComponentMeasures> component_measures() const {
+    return of_vesicles_.empty() ? measured_vesicles() : of_vesicles_;
+  }
   /// What happened so far, in the order of time.
   std::span<const Event> events() const { return events_; }
   /// A constraint is still being led to a target, or will be.
@@ -105,6 +109,8 @@ private:
   std::string why_not_risen(const Measures& risen) const;
 
   // events: simulation_events.cpp
+  void note(const Measures& measures);
+  std::vector<ComponentMeasures> measured_vesicles() const;
   void find_narrow_places();
   long steps_until_narrow() const;
   void change_topology_if_needed();
@@ -149,6 +155,7 @@ private:
   Topology topology_;
   std::vector<Domain> domains_; // of the Ld phase
   Measures measures_;
+  std::vector<ComponentMeasures> of_vesicles_; // where there are several
   std::vector<Event> events_;
 };
 

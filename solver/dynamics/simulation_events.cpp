@@ -30,7 +30,14 @@ Vec3 Simulation::in_space(Vec3 place) const {
   return place;
 }
 
-std::vector<ComponentMeasures> Simulation::component_measures() const {
+/// Of the state that the membrane is in.
+void Simulation::note(const Measures& measures) {
+  measures_ = measures;
+  of_vesicles_.clear();
+  if (vesicles() > 1) of_vesicles_ = measured_vesicles();
+}
+
+std::vector<ComponentMeasures> Simulation::measured_vesicles() const {
   std::vector<ComponentMeasures> all = vesicle_.component_measures(time());
   for (ComponentMeasures& m : all) m.center = in_space(m.center);
   return all;
@@ -270,7 +277,7 @@ bool Simulation::part_at(const Closing& place) {
   last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.stiffness());
   parted.dt = measures_.dt;
   parted.energy_rise = measures_.energy_rise; // of the step that led here
-  measures_ = parted;
+  note(parted);
   event.components_after = measures_.components;
   event.genus_after = measures_.genus;
   event.energy_after = measures_.energy;

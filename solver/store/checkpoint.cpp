@@ -173,6 +173,8 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"history_checksum", number(c.history.checksum)},
               {"events_size", number(c.events.size)},
               {"events_checksum", number(c.events.checksum)},
+              {"components_size", number(c.components.size)},
+              {"components_checksum", number(c.components.checksum)},
               {"frame_times", &c.frame_times},
               {"stopping/energy_before", number(c.stopping.energy_before)},
               {"stopping/steps_at_rest", number(c.stopping.steps_at_rest)},

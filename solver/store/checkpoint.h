@@ -13,10 +13,10 @@ struct Checkpoint {
   std::string scene;   ///< its TOML text, complete
   std::string program; ///< version() and arithmetic() of the one that wrote it
   std::string arithmetic;
-  int threads = 0;           ///< for the record: results do not depend on them
-  double wall_seconds = 0;   ///< that the run has taken so far
-  TableMark history, events; ///< of history.csv and events.csv
-  Array<double> frame_times; ///< of the frames stored so far
+  int threads = 0;                       ///< for the record: results do not depend on them
+  double wall_seconds = 0;               ///< that the run has taken so far
+  TableMark history, events, components; ///< of history.csv, events.csv and components.csv
+  Array<double> frame_times;             ///< of the frames stored so far
   Stopping::State stopping;
   SimulationState state;
 };

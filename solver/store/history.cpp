@@ -141,6 +141,23 @@ Row row_of(Event& e) {
           {"cells_z", &e.cells[2]}};
 }
 
+Row row_of(ComponentMeasures& m) {
+  Row row{{"t", &m.time, "time"},
+          {"component", &m.component},
+          {"x", &m.center[0], "length"},
+          {"y", &m.center[1], "length"},
+          {"z", &m.center[2], "length"},
+          {"V", &m.volume, "length³"},
+          {"A", &m.area, "length²"},
+          {"v", &m.reduced_volume},
+          {"int_KM", &m.int_KM, "length"},
+          {"P", &m.P, "energy/length³"},
+          {"sigma", &m.sigma, "energy/length²"},
+          {"K_multiplier", &m.K_multiplier, "energy/length"}};
+  if (m.area_Ld) row.push_back({"A_Ld", &*m.area_Ld, "length²"});
+  return row;
+}
+
 std::optional<double> value_of(Measures measures, std::string_view column) {
   for (const Field& field : row_of(measures)) {
     if (field.column != column) continue;
@@ -156,6 +173,14 @@ std::vector<Measures> read_history(const std::filesystem::path& file) {
 
 std::vector<Event> read_events(const std::filesystem::path& file) {
   return read_records(file, "table of events", Event{});
+}
+
+std::vector<ComponentMeasures> read_components(const std::filesystem::path& file) {
+  if (is_free(file)) return {}; // of earlier versions
+  ComponentMeasures like;
+  const std::vector<std::string> columns = read_columns(file);
+  if (std::ranges::count(columns, "A_Ld") > 0) like.area_Ld = 0;
+  return read_records(file, "table of vesicles", like);
 }
 
 void write_series(const Place& place, std::span<const SeriesEntry> entries) {

@@ -16,6 +16,8 @@ namespace lamella {
 /// stretch and of terms of the energy are there where the measures have them.
 Row row_of(Measures& measures);
 Row row_of(Event& event);
+/// The columns of components.csv, likewise.
+Row row_of(ComponentMeasures& measures);
 
 /// Measures that have these columns.
 Measures measures_with(std::span<const std::string> columns);
@@ -43,10 +45,14 @@ private:
 
 using HistoryWriter = RecordWriter<Measures>; ///< history.csv: the start and every step
 using EventWriter = RecordWriter<Event>;      ///< events.csv
+/// components.csv: a row for each of several vesicles that hold something of their own, at the
+/// start and after every step.
+using ComponentWriter = RecordWriter<ComponentMeasures>;
 
 /// Throw StoreError for anything but what these writers wrote, with the line.
 std::vector<Measures> read_history(const std::filesystem::path& file);
 std::vector<Event> read_events(const std::filesystem::path& file);
+std::vector<ComponentMeasures> read_components(const std::filesystem::path& file);
 
 /// A stored frame as ParaView lists it.
 struct SeriesEntry {

@@ -41,7 +41,8 @@ protected:
 TEST_F(Files, that_are_damaged_are_named_when_a_run_goes_on) {
   run_and_interrupt("");
   const auto whole = contents_of(run());
-  for (const char* file : {"history.csv", "events.csv", "frames/frame_0001.hdf"}) {
+  for (const char* file :
+       {"history.csv", "events.csv", "components.csv", "frames/frame_0001.hdf"}) {
     damage(run() / file);
     const auto before = contents_of(run());
     const Result result = call(words("run --no-pictures --resume run"));
@@ -151,8 +152,8 @@ TEST_F(Files, that_are_none_are_refused_by_every_command_without_waiting) {
 
 TEST_F(Files, of_a_run_that_are_none_are_named) {
   ASSERT_EQ(call(quick({"-o", "run"})).code, 0);
-  for (const std::string file : {"history.csv", "events.csv", "scene.toml", "frames/frame_0001.hdf",
-                                 "frames/frames.hdf.series"}) {
+  for (const std::string file : {"history.csv", "events.csv", "components.csv", "scene.toml",
+                                 "frames/frame_0001.hdf", "frames/frames.hdf.series"}) {
     fs::rename(run() / file, work() / "kept");
     for (const char* kind : {"folder", "pipe", "link"}) {
       if (*kind == 'f') fs::create_directory(run() / file);

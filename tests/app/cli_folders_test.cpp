@@ -206,9 +206,10 @@ TEST_F(Folders, refuse_symbolic_links_in_place_of_their_own) {
   make_interrupted_run();
   const fs::path run = work() / "run", outside = base_ / "outside";
   for (const std::string own :
-       {"scene.toml", "status.toml", "history.csv", "events.csv", "summary.txt", "figure.png",
-        "energy.png", "start.hdf", "frames", "checkpoints", "surfaces", "frames/frame_0000.hdf",
-        "frames/frames.hdf.series", "checkpoints/checkpoint_99999999.hdf"}) {
+       {"scene.toml", "status.toml", "history.csv", "events.csv", "components.csv", "summary.txt",
+        "figure.png", "energy.png", "start.hdf", "frames", "checkpoints", "surfaces",
+        "frames/frame_0000.hdf", "frames/frames.hdf.series",
+        "checkpoints/checkpoint_99999999.hdf"}) {
     const bool was_there = fs::exists(run / own);
     if (was_there)
       fs::rename(run / own, outside);

@@ -50,7 +50,8 @@ protected:
 
   /// That two runs left the same numbers, to the last bit.
   void expect_same_run(const fs::path& a, const fs::path& b) const {
-    for (const char* file : {"scene.toml", "history.csv", "events.csv", "frames/frames.hdf.series"})
+    for (const char* file :
+         {"scene.toml", "history.csv", "events.csv", "components.csv", "frames/frames.hdf.series"})
       EXPECT_EQ(text_of(work() / a / file), text_of(work() / b / file)) << file;
     const auto frames = frames_of(work() / a);
     EXPECT_EQ(frames.size(), frames_of(work() / b).size());

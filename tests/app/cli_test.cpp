@@ -98,8 +98,9 @@ TEST_F(Cli, fills_the_folder) {
   const Result result = call(quick({"-o", "run"}));
   ASSERT_EQ(result.code, 0) << result.err;
   const fs::path run = work() / "run";
-  EXPECT_THAT(names_in(run), ElementsAre("checkpoints", "events.csv", "frames", "history.csv",
-                                         "scene.toml", "status.toml", "summary.txt"));
+  EXPECT_THAT(names_in(run),
+              ElementsAre("checkpoints", "components.csv", "events.csv", "frames", "history.csv",
+                          "scene.toml", "status.toml", "summary.txt"));
   EXPECT_THAT(text_of(run / "history.csv"),
               StartsWith("t,dt,energy,bending_energy,int_KM2,P,sigma,K_multiplier,A,V,v,Da,dA_rel,"
                          "dV_rel,max_speed,components,genus"));
@@ -229,6 +230,37 @@ TEST_F(Cli, tells_and_stores_events) {
   EXPECT_THAT(text_of(run / "summary.txt"), HasSubstr(section));
 }
 
+/// Two balls with a thin neck, from a stored frame: they part at once.
+TEST_F(Cli, stores_what_each_of_several_vesicles_has) {
+  const Grid grid = Grid::cube(32, 1);
+  Frame frame{.grid = grid};
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    const auto [x, y, z] = grid.position(n);
+    frame.phi.push_back(
+        std::min(std::hypot(x - 0.4, y, z) - 0.3, std::hypot(x + 0.4, y, z) - 0.35));
+  }
+  write_frame(work() / "two.hdf", frame);
+  write(work() / "two.toml", "[grid]\nnodes = 32\n[shape]\nkind = 'frame'\nfile = 'two.hdf'\n"
+                             "[run]\nend_time = 1e-5\n");
+  const Result result = call(words("run two.toml -o run --no-pictures"));
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::vector<Measures> history = read_history(work() / "run" / "history.csv");
+  const std::vector<ComponentMeasures> vesicles =
+      read_components(work() / "run" / "components.csv");
+  ASSERT_EQ(vesicles.size(), 2 * history.size());
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const ComponentMeasures &a = vesicles[2 * i], &b = vesicles[2 * i + 1];
+    EXPECT_EQ(a.time, history[i].time);
+    EXPECT_EQ(a.component, 1);
+    EXPECT_EQ(b.component, 2);
+    EXPECT_NEAR(a.center[0], -0.4, 1e-3) << "the larger one";
+    EXPECT_NEAR(a.volume + b.volume, history[i].volume, 1e-10);
+    EXPECT_NEAR(a.area + b.area, history[i].area, 1e-10);
+  }
+  EXPECT_THAT(text_of(work() / "run" / "summary.txt"), HasSubstr("\n1           -0.3995 "));
+  EXPECT_THAT(call(words("inspect run")).out, HasSubstr("\nvesicle 2 "));
+}
+
 TEST_F(Cli, warns_where_the_grid_was_too_coarse) {
   const Result result = call(words("run fig8d --no-pictures --set run.end_time=1e-6 -o run"));
   const std::vector<Event> events = read_events(work() / "run" / "events.csv");
@@ -283,9 +315,9 @@ TEST_F(Cli, replaces_a_run_only_when_told_and_keeps_what_is_not_its_own) {
   for (const char* other : others) EXPECT_EQ(text_of(run / other), "precious") << other;
   EXPECT_THAT(names_in(run / "frames"),
               ElementsAre("frame_0000.hdf", "frame_0001.hdf", "frames.hdf.series", "mine.hdf"));
-  EXPECT_THAT(names_in(run),
-              ElementsAre("checkpoints", "events.csv", "frames", "history.csv", "history.csv.bak",
-                          "notes.txt", "scene.toml", "status.toml", "summary.txt"));
+  EXPECT_THAT(names_in(run), ElementsAre("checkpoints", "components.csv", "events.csv", "frames",
+                                         "history.csv", "history.csv.bak", "notes.txt",
+                                         "scene.toml", "status.toml", "summary.txt"));
 }
 
 TEST_F(Cli, keeps_the_old_run_when_the_new_one_cannot_start) {
@@ -407,8 +439,8 @@ TEST_F(Cli, keeps_the_numbers_where_nothing_can_be_drawn) {
   EXPECT_THAT(result.err, AllOf(MatchesRegex("lamella: no pictures: [^\n]+\n"),
                                 HasSubstr("DISPLAY"), HasSubstr("lamella render")));
   EXPECT_THAT(names_in(work() / "run"),
-              ElementsAre("checkpoints", "events.csv", "frames", "history.csv", "scene.toml",
-                          "status.toml", "summary.txt"));
+              ElementsAre("checkpoints", "components.csv", "events.csv", "frames", "history.csv",
+                          "scene.toml", "status.toml", "summary.txt"));
   EXPECT_EQ(call({"render", "run", "--backend", "x"}).code, 5);
 }
 

@@ -70,6 +70,7 @@ protected:
             1.5,
             {123, -7},
             {45, 1L << 60},
+            {67, 8},
             {0, 1e-5},
             {171.5, 2},
             sim.state()};
@@ -101,6 +102,34 @@ protected:
   fs::path folder_;
 };
 
+/// Two balls of different size.
+Start two_balls(const Grid& grid) {
+  Start start;
+  for (std::size_t n = 0; n < grid.size(); n++) {
+    const auto [x, y, z] = grid.position(n);
+    start.phi.push_back(
+        std::min(std::hypot(x - 0.45, y, z) - 0.3, std::hypot(x + 0.4, y, z) - 0.4));
+  }
+  return start;
+}
+
+TEST_F(Checkpoints, BringSeveralVesiclesBackToTheLastBit) {
+  Scene scene = one_phase();
+  scene.nodes = {32, 32, 32};
+  Simulation sim(scene, two_balls(scene.grid()));
+  write_checkpoint(file(), sim.frame(), after_steps(sim));
+  Checkpoint back = read_checkpoint(file());
+  Simulation again(scene, back.state);
+  ASSERT_EQ(again.vesicles(), 2);
+  for (int i = 0; i < 5; i++) {
+    sim.step(1);
+    again.step(1);
+    EXPECT_EQ(again.component_measures(), sim.component_measures());
+  }
+  for (int& vesicle : back.state.vesicle.vesicle_of_node) vesicle = std::min(vesicle, 0);
+  EXPECT_THROW(Simulation(scene, back.state), RunError) << "one of them is nowhere";
+}
+
 TEST_F(Checkpoints, BringARunBackToTheLastBit) {
   for (const Scene& scene : {one_phase(), two_phases_with_stretch()}) {
     Simulation sim(scene);
@@ -114,6 +143,7 @@ TEST_F(Checkpoints, BringARunBackToTheLastBit) {
     EXPECT_EQ(back.wall_seconds, 1.5);
     EXPECT_EQ(back.history, written.history);
     EXPECT_EQ(back.events, written.events);
+    EXPECT_EQ(back.components, written.components);
     EXPECT_EQ(back.frame_times, written.frame_times);
     EXPECT_EQ(back.stopping.energy_before, 171.5);
     EXPECT_EQ(back.stopping.steps_at_rest, 2);

@@ -701,6 +701,27 @@ TEST_F(EventStore, RefusesEventsThatAreNotFinite) {
   EXPECT_TRUE(read_events(file()).empty());
 }
 
+TEST_F(Store, KeepsWhatEachVesicleHas) {
+  for (const bool phases : {false, true}) {
+    ComponentMeasures m{.time = 0.5,
+                        .component = 2,
+                        .center = {0.1, -0.2, 0.3},
+                        .volume = 1.25,
+                        .area = 7,
+                        .reduced_volume = 0.75,
+                        .P = -12,
+                        .sigma = 3.5,
+                        .K_multiplier = 0.25,
+                        .int_KM = -11};
+    if (phases) m.area_Ld = 2.5;
+    const auto file = folder_ / "components.csv";
+    ComponentWriter(file, m).add(m);
+    const std::vector<ComponentMeasures> read = read_components(file);
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_EQ(read[0], m);
+  }
+}
+
 TEST_F(EventStore, ReadsNothingButEvents) {
   const auto message = [&](const std::string& kind) {
     put(file(), event_header + "\n1," + kind + ",2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18\n");

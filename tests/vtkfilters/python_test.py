@@ -147,6 +147,11 @@ class Runs(unittest.TestCase):
         smooth[0]
         self.assertEqual(smooth.events, [])
 
+    def test_components(self):
+        run = lamella.run(SCENE)
+        run[0]
+        self.assertEqual(len(run.components["V"]), 0)
+
     def test_scene_file_with_overrides(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "mine.toml")

@@ -117,6 +117,11 @@ TEST_F(Readers, TellTheEventsOfARun) {
   EXPECT_EQ(events->GetValueByName(0, "kind").ToString(), "fission");
   EXPECT_EQ(events->GetValueByName(0, "x").ToDouble(), 0.25);
   EXPECT_EQ(events->GetNumberOfColumns(), 19);
+  vtkTable* vesicles = vtkTable::SafeDownCast(run->GetOutputDataObject(3));
+  EXPECT_EQ(vesicles->GetNumberOfRows(), 0) << "there is one";
+  EXPECT_GT(vesicles->GetNumberOfColumns(), 8);
+  fs::remove(folder_ / "components.csv");
+  EXPECT_EQ(error_of(run_reader(folder_)), "") << "earlier versions wrote none";
   fs::remove(folder_ / "events.csv");
   EXPECT_THAT(error_of(run_reader(folder_)), HasSubstr("events.csv"));
 }

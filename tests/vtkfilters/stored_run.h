@@ -19,6 +19,7 @@ inline void store_run(const std::filesystem::path& folder, const Scene& scene,
   Simulation simulation(scene);
   HistoryWriter history(folder / "history.csv", simulation.measures());
   std::vector<SeriesEntry> series;
+  ComponentWriter components(folder / "components.csv", simulation.component_measures().front());
   const auto store = [&] {
     const std::string name = "frame_000" + std::to_string(series.size()) + ".hdf";
     write_frame(folder / "frames" / name, simulation.frame());

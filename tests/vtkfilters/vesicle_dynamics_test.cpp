@@ -167,6 +167,32 @@ TEST(VesicleDynamics, TellsWhatHappened) {
   EXPECT_EQ(events->GetNumberOfColumns(), 19) << "also without rows";
 }
 
+TEST(VesicleDynamics, TellsWhatEachOfSeveralVesiclesHas) {
+  Frame frame;
+  frame.grid = Grid::cube(32, 1);
+  for (std::size_t n = 0; n < frame.grid.size(); ++n) {
+    const auto [x, y, z] = frame.grid.position(n);
+    frame.phi.push_back(
+        std::min(std::hypot(x - 0.45, y, z) - 0.3, std::hypot(x + 0.4, y, z) - 0.4));
+  }
+  const auto image = image_of(frame);
+  image->SetOrigin(image->GetOrigin()[0] + 5, image->GetOrigin()[1], image->GetOrigin()[2]);
+  const auto dynamics = dynamics_of(image);
+  dynamics->UpdateTimeStep(0);
+  vtkTable* vesicles = vtkTable::SafeDownCast(dynamics->GetOutputDataObject(3));
+  ASSERT_EQ(vesicles->GetNumberOfRows(), 2);
+  for (const auto& [row, x, R] : {std::tuple{0, 4.6, 0.4}, {1, 5.45, 0.3}}) {
+    EXPECT_EQ(vesicles->GetValueByName(row, "component").ToDouble(), row + 1);
+    EXPECT_NEAR(vesicles->GetValueByName(row, "x").ToDouble(), x, 1e-3);
+    EXPECT_NEAR(vesicles->GetValueByName(row, "A").ToDouble() / (4 * M_PI * R * R), 1, 1e-3);
+  }
+  dynamics->SetAreaOf("all");
+  dynamics->SetVolumeOf("all");
+  dynamics->UpdateTimeStep(0);
+  vesicles = vtkTable::SafeDownCast(dynamics->GetOutputDataObject(3));
+  EXPECT_EQ(vesicles->GetNumberOfRows(), 0);
+}
+
 TEST(VesicleDynamics, ComputesAnewOnlyWhatChanges) {
   const auto dynamics = dynamics_of(start());
   dynamics->UpdateTimeStep(end);

@@ -37,7 +37,7 @@ RunFiles find_run_files(const fs::path& path) {
                                  path.string()));
   const fs::path series = *folder / "frames" / "frames.hdf.series";
   RunFiles run{*folder / "scene.toml", *folder / "history.csv", *folder / "events.csv",
-               read_series(series)};
+               *folder / "components.csv", read_series(series)};
   for (SeriesEntry& frame : run.frames) frame.file = series.parent_path() / frame.file;
   if (run.frames.empty())
     throw StoreError(fmt::format("{}: the run has no frames", folder->string()));

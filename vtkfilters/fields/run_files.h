@@ -8,7 +8,7 @@ namespace lamella {
 
 /// The folder of a run (`lamella run -o`), as far as it has come.
 struct RunFiles {
-  std::filesystem::path scene, history, events;
+  std::filesystem::path scene, history, events, components;
   std::vector<SeriesEntry> frames; ///< in the order of time, each with its whole path
 };
 

@@ -81,6 +81,7 @@ void serve(vtkAlgorithm* self, Trajectory& trajectory, const Vec3& center,
              center);
   fill_history(*vtkTable::GetData(&output, 1), trajectory.history());
   fill_events(*vtkTable::GetData(&output, 2), trajectory.events(), center);
+  fill_components(*vtkTable::GetData(&output, 3), trajectory.components(), center);
   for (int port = 0; port < output.GetNumberOfInformationObjects(); ++port)
     vtkDataObject::GetData(&output, port)
         ->GetInformation()

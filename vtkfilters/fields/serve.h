@@ -36,10 +36,11 @@ struct TimeRequest {
   Trajectory::GoOn go_on; ///< asked on the way to that time
 };
 
-/// Fills the outputs of an algorithm over time: the image (port 0), the history (1) and the events
-/// (2) of a scene whose box is around a centre, at the requested time or as far as it may go on
-/// towards it. Where a run ended before by an error, that is the algorithm's. An algorithm whose
-/// history has grown is modified: what comes after it asks for the tables again, whatever the time.
+/// Fills the outputs of an algorithm over time: the image (port 0), the history (1), the events (2)
+/// and the vesicles where there are several (3) of a scene whose box is around a centre, at the
+/// requested time or as far as it may go on towards it. Where a run ended before by an error, that
+/// is the algorithm's. An algorithm whose history has grown is modified: what comes after it asks
+/// for the tables again, whatever the time.
 void serve(vtkAlgorithm* self, Trajectory& trajectory, const Vec3& center,
            const TimeRequest& request, vtkInformationVector& output);
 

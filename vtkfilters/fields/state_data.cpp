@@ -73,4 +73,12 @@ void fill_events(vtkTable& table, std::span<const Event> events, const Vec3& cen
   fill_table<Event>(table, moved, Event());
 }
 
+void fill_components(vtkTable& table, std::span<const ComponentMeasures> vesicles,
+                     const Vec3& center) {
+  std::vector<ComponentMeasures> moved(vesicles.begin(), vesicles.end());
+  for (ComponentMeasures& vesicle : moved)
+    for (int a = 0; a < 3; ++a) vesicle.center[a] += center[a];
+  fill_table<ComponentMeasures>(table, moved, moved.empty() ? ComponentMeasures() : moved.front());
+}
+
 } // namespace lamella

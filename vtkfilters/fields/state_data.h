@@ -22,4 +22,8 @@ void fill_history(vtkTable& table, std::span<const Measures> history);
 /// The same of events in a box around a centre, in the columns of events.csv; the kind is text.
 void fill_events(vtkTable& table, std::span<const Event> events, const Vec3& center = {});
 
+/// The same of vesicles, in the columns of components.csv.
+void fill_components(vtkTable& table, std::span<const ComponentMeasures> vesicles,
+                     const Vec3& center = {});
+
 } // namespace lamella

@@ -52,6 +52,13 @@ Trajectory::Trajectory(const Scene& scene, const Start& start)
     : scene_(scene), times_(stored_times(scene)), simulation_(scene, start),
       stopping_(scene.stop), history_{simulation_.measures()} {
   stored_.push_back(now());
+  note_components();
+}
+
+void Trajectory::note_components() {
+  if (simulation_.vesicles() == 1) return;
+  const std::vector<ComponentMeasures> now = simulation_.component_measures();
+  components_.insert(components_.end(), now.begin(), now.end());
 }
 
 State Trajectory::at(double time, const GoOn& go_on) {
@@ -82,6 +89,7 @@ bool Trajectory::advance(std::size_t stored, const GoOn& go_on) {
     }
     spent_ += Clock::now() - begin;
     history_.push_back(simulation_.measures());
+    note_components();
     if (goal - time() <= rounding * goal) stored_.push_back(now());
   }
   return stored_.size() > stored;

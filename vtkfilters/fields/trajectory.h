@@ -38,6 +38,8 @@ public:
 
   /// The start and every step of the run, as far as it was computed.
   const std::vector<Measures>& history() const { return history_; }
+  /// Of several vesicles each, for the same steps.
+  const std::vector<ComponentMeasures>& components() const { return components_; }
   /// What happened until then.
   std::span<const Event> events() const { return simulation_.events(); }
   /// Why the run cannot be continued beyond time(); nothing where it can, or ended by its rules.
@@ -59,6 +61,7 @@ private:
 
   bool advance(std::size_t stored, const GoOn& go_on);
   bool ended_by_rule();
+  void note_components();
   State now() const { return {simulation_.frame(), simulation_.measures()}; }
   State between(std::size_t stored, double time, const GoOn& go_on);
 
@@ -69,6 +72,7 @@ private:
   std::chrono::steady_clock::duration spent_{}; // in steps
   std::vector<State> stored_;
   std::vector<Measures> history_;
+  std::vector<ComponentMeasures> components_;
   bool ended_ = false;
   std::optional<std::string> failure_;
   bool interrupted_ = false;
