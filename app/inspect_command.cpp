@@ -51,8 +51,8 @@ std::string scene_rows(const Scene& scene) {
 }
 
 std::string measures_rows(const Measures& m) {
-  std::string text =
-      row("energy", fmt::format("{:.8g}, of bending {:.8g}", m.energy, m.bending_energy));
+  std::string text = row(
+      "energy", fmt::format("{:.8g}, of bending {:.8g}", m.energy, m.terms.value(Term::bending)));
   if (m.phases)
     text += row("", fmt::format("of the phase boundary {:.8g}, of its length {:.6g}",
                                 m.phases->line_energy, m.phases->line_length));

@@ -28,36 +28,27 @@ std::string row(std::string_view name, std::string_view symbol, double from, dou
                      constraint.empty() ? "" : "   ", constraint);
 }
 
-std::string optional_row(std::string_view name, std::string_view symbol,
-                         const std::optional<double>& from, const std::optional<double>& to) {
-  return from && to ? row(name, symbol, *from, *to) : "";
-}
-
-std::string line_rows(const LineTerms& from, const LineTerms& to) {
-  return optional_row("", "of tension", from.tension, to.tension) +
-         optional_row("", "of kg", from.geodesic, to.geodesic) +
-         optional_row("", "of kn", from.normal, to.normal) +
-         optional_row("", "of tau_g", from.torsion, to.torsion) +
-         optional_row("", "of kg^2", from.geodesic_square, to.geodesic_square) +
-         optional_row("", "of kn^2", from.normal_square, to.normal_square) +
-         optional_row("", "of tau_g^2", from.torsion_square, to.torsion_square);
+/// "*k*_{g}" without its marks: "kg".
+std::string plain(std::string symbol) {
+  std::erase_if(symbol, [](char c) { return c == '*' || c == '_' || c == '{' || c == '}'; });
+  return symbol;
 }
 
 std::string energy_rows(const Measures& start, const Measures& end) {
   std::string text = row("energy", "E", start.energy, end.energy);
-  if (start.phases) {
-    const PhaseMeasures &from = *start.phases, &to = *end.phases;
-    text += row("  bending", "of Ld", from.bending_energy_Ld, to.bending_energy_Ld);
-    text += row("", "of Lo", from.bending_energy_Lo, to.bending_energy_Lo);
-    text += row("  Gaussian curvature", "", from.gaussian_energy, to.gaussian_energy);
-    text += row("  phase boundary", "", from.line_energy, to.line_energy);
-    text += line_rows(from.line_terms, to.line_terms);
+  const auto& phases = start.phases;
+  if (phases) {
+    text += row("  bending", "of Ld", phases->bending_energy_Ld, end.phases->bending_energy_Ld);
+    text += row("", "of Lo", phases->bending_energy_Lo, end.phases->bending_energy_Lo);
+    text += row("  phase boundary", "", phases->line_energy, end.phases->line_energy);
   }
-  if (start.stretch) text += row("  stretch", "", start.stretch->energy, end.stretch->energy);
-  text += optional_row("  pressure", "-P V", start.pressure_energy, end.pressure_energy);
-  text += optional_row("  area difference", "", start.area_difference_energy,
-                       end.area_difference_energy);
-  text += optional_row("  films", "", start.film_energy, end.film_energy);
+  for (const TermInfo& term : energy_term_table) {
+    const auto &from = start.terms[term.term], &to = end.terms[term.term];
+    if (!from || !to || term.term == Term::bending) continue;
+    const bool of_line = term.seat == Seat::boundary;
+    text += row(fmt::format("{}{}", of_line ? "    " : "  ", term.label), plain(term.symbol), *from,
+                *to);
+  }
   return text + row("", "int K_M^2 dA", start.int_KM2, end.int_KM2);
 }
 

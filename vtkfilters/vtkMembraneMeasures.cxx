@@ -1,5 +1,7 @@
 #include "vtkMembraneMeasures.h"
 
+#include "energy/energy_terms.h"
+
 #include "fields/image.h"
 #include "fields/measure.h"
 #include "fields/report.h"
@@ -22,11 +24,6 @@ namespace
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 using Row = std::vector<std::pair<const char*, double>>;
 
-/** Terms of the energy that the solver knows, and tells in the field data where the scene has them. */
-constexpr const char* KnownTerms[] = { "gaussian_energy", "line_energy", "line_tension_energy",
-  "kg_energy", "kn_energy", "tau_g_energy", "kg2_energy", "kn2_energy", "tau_g2_energy",
-  "stretch_energy", "pressure_energy", "area_difference_energy", "film_energy" };
-
 Row RowOf(const lamella::ShapeMeasures& m, double time, vtkDataObject& about)
 {
   const auto known = [&](const char* name, double otherwise)
@@ -44,13 +41,22 @@ Row RowOf(const lamella::ShapeMeasures& m, double time, vtkDataObject& about)
         { "bending_Ld", m.phases->bending_energy_Ld },
         { "bending_Lo", m.phases->bending_energy_Lo }, { "line_length", m.phases->line_length } });
   }
-  for (const char* term : KnownTerms)
+  // What only the solver knows stands in the field data, where the scene has it.
+  const auto add = [&](const char* name)
   {
-    if (const auto energy = lamella::field_value(about, term))
+    if (const auto energy = lamella::field_value(about, name))
     {
-      row.emplace_back(term, *energy);
+      row.emplace_back(name, *energy);
+    }
+  };
+  for (const lamella::TermInfo& term : lamella::energy_term_table)
+  {
+    if (term.term != lamella::Term::bending)
+    {
+      add(term.column);
     }
   }
+  add("line_energy");
   return row;
 }
 
@@ -143,9 +149,9 @@ int vtkMembraneMeasures::RequestData(
       {
         lamella::remark(this, vesicle.remark);
       }
-      const auto elasticity =
-        lamella::elasticity_of(*image, { this->BendingModulus, this->SpontaneousCurvature });
-      const auto measures = lamella::measure(vesicle.frame, elasticity);
+      const auto forces = lamella::forces_of(
+        *image, vesicle.frame, { this->BendingModulus, this->SpontaneousCurvature });
+      const auto measures = lamella::measure(vesicle.frame, forces);
       Append(*this->Collected, RowOf(measures, vesicle.frame.time, *image));
       this->UpdateProgress(
         static_cast<double>(this->Next + 1) / static_cast<double>(this->Times.size() + 1));

@@ -1,5 +1,7 @@
 #include "vtkMembraneSurface.h"
 
+#include "energy/surface_energy.h"
+
 #include "fields/contour.h"
 #include "fields/field_data.h"
 #include "fields/image.h"
@@ -26,7 +28,6 @@ vtkStandardNewMacro(vtkMembraneSurface);
 namespace
 {
 using lamella::Frame;
-using lamella::Helfrich;
 using lamella::LevelSet;
 using lamella::SplineGeometry;
 
@@ -47,7 +48,7 @@ Frame Refined(const Frame& frame, int factor)
 int SuitableRefinement(const Frame& frame, const LevelSet& phi)
 {
   const auto coarse = lamella::contour(frame);
-  const SplineGeometry geometry = lamella::move_onto(phi, *coarse->GetPoints(), false);
+  const SplineGeometry geometry = lamella::move_onto(phi, *coarse->GetPoints());
   const double squares =
     std::inner_product(geometry.KM.begin(), geometry.KM.end(), geometry.KM.begin(), 0.0);
   const double h = frame.grid.spacing, mean = squares / static_cast<double>(geometry.KM.size());
@@ -89,15 +90,15 @@ void AddPhase(vtkPolyData& mesh)
 }
 
 void AddEnergyDensity(
-  vtkPolyData& mesh, const SplineGeometry& geometry, const lamella::Elasticity& elasticity)
+  vtkPolyData& mesh, const SplineGeometry& geometry, const lamella::Scene& forces)
 {
   vtkDoubleArray* psi = PsiOf(mesh);
   double* density = AddArray(mesh, "energy_density");
+  const lamella::SurfaceEnergy membrane(forces.membrane), ld(forces.ld), lo(forces.lo);
   for (std::size_t n = 0; n < geometry.KM.size(); ++n)
   {
-    const Helfrich& bending =
-      psi ? elasticity.at(psi->GetValue(static_cast<vtkIdType>(n))) : elasticity.membrane;
-    density[n] = bending.density(geometry.KM[n]);
+    const bool isLd = psi && psi->GetValue(static_cast<vtkIdType>(n)) < 0;
+    density[n] = (isLd ? ld : psi ? lo : membrane).density(geometry.KM[n], geometry.K[n]);
   }
 }
 
@@ -127,25 +128,25 @@ void AddNormals(vtkPolyData& mesh, const SplineGeometry& geometry)
 
 /** The membrane as the spline has it; refinement 0: what suits. */
 vtkSmartPointer<vtkPolyData> ExactSurface(
-  const Frame& frame, int refinement, vtkDataObject& about, const Helfrich& otherwise)
+  const Frame& frame, int refinement, vtkDataObject& about, const lamella::SurfaceModuli& otherwise)
 {
   const auto multipliers = lamella::multipliers_of(about, !frame.psi.empty());
   const LevelSet phi = lamella::fitted(frame.grid, frame.phi);
   const Frame fine = Refined(frame, refinement ? refinement : SuitableRefinement(frame, phi));
   const auto mesh = lamella::contour(fine);
   const SplineGeometry geometry =
-    lamella::move_onto(phi, *mesh->GetPoints(), multipliers.has_value());
-  const lamella::Elasticity elasticity = lamella::elasticity_of(about, otherwise);
+    lamella::move_onto(phi, *mesh->GetPoints());
+  const lamella::Scene forces = lamella::forces_of(about, frame, otherwise);
   AddNormals(*mesh, geometry);
   lamella::add_fields(*mesh, fine);
   std::copy(geometry.KM.begin(), geometry.KM.end(), AddArray(*mesh, "K_M"));
   std::copy(geometry.K.begin(), geometry.K.end(), AddArray(*mesh, "K"));
-  AddEnergyDensity(*mesh, geometry, elasticity);
+  AddEnergyDensity(*mesh, geometry, forces);
   if (multipliers)
   {
     AddVelocity(*mesh, geometry,
       lamella::normal_velocity(
-        frame, phi, lamella::forces_of(about, frame), *multipliers, *mesh->GetPoints(), geometry));
+        frame, phi, forces, *multipliers, *mesh->GetPoints()));
   }
   return mesh;
 }

@@ -87,17 +87,65 @@ public:
   ///@}
 
   ///@{
-  /** [membrane] bending_modulus: bending modulus of the Helfrich energy. A number from 1e-30 to
-   * 1e+30; energy. Default 1. */
+  /** [membrane] bending_modulus: bending modulus kappa: of half the square of K_M less
+   * spontaneous_curvature (Helfrich). A number from 1e-30 to 1e+30; energy. Default 1. */
   void SetBendingModulus(double value);
   double GetBendingModulus();
   ///@}
 
   ///@{
-  /** [membrane] spontaneous_curvature: preferred sum of the principal curvatures, which is -2 on
+  /** [membrane] spontaneous_curvature: C: preferred sum of the principal curvatures, which is -2 on
    * the unit sphere. A number from -1e+30 to 1e+30; 1/length. Default 0. */
   void SetSpontaneousCurvature(double value);
   double GetSpontaneousCurvature();
+  ///@}
+
+  ///@{
+  /** [membrane] gaussian_modulus: kappa_G: of the Gaussian curvature K; only a difference between
+   * phases has an effect on shapes. A number from -1e+30 to 1e+30; energy. Default 0. */
+  void SetGaussianModulus(double value);
+  double GetGaussianModulus();
+  ///@}
+
+  ///@{
+  /** [membrane] linear_modulus: of K_M, the sum of the principal curvatures. A number from -1e+30
+   * to 1e+30; energy/length. Default 0. */
+  void SetLinearModulus(double value);
+  double GetLinearModulus();
+  ///@}
+
+  ///@{
+  /** [membrane] cubic_modulus: of K_M^3. A number from -1e+30 to 1e+30; energy length. Default 0. */
+  void SetCubicModulus(double value);
+  double GetCubicModulus();
+  ///@}
+
+  ///@{
+  /** [membrane] mixed_cubic_modulus: of K_M K. A number from -1e+30 to 1e+30; energy length.
+   * Default 0. */
+  void SetMixedCubicModulus(double value);
+  double GetMixedCubicModulus();
+  ///@}
+
+  ///@{
+  /** [membrane] quartic_modulus: of K_M^4. A number from -1e+30 to 1e+30; energy length^2. Default
+   * 0. */
+  void SetQuarticModulus(double value);
+  double GetQuarticModulus();
+  ///@}
+
+  ///@{
+  /** [membrane] mixed_quartic_modulus: of K_M^2 K. A number from -1e+30 to 1e+30; energy length^2.
+   * Default 0. */
+  void SetMixedQuarticModulus(double value);
+  double GetMixedQuarticModulus();
+  ///@}
+
+  ///@{
+  /** [membrane] gaussian_square_modulus: of K^2. A number from -1e+30 to 1e+30; energy length^2.
+   * Default 0. */
+  void SetGaussianSquareModulus(double value);
+  double GetGaussianSquareModulus();
   ///@}
 
   ///@{
@@ -108,45 +156,123 @@ public:
   ///@}
 
   ///@{
-  /** [ld] bending_modulus: bending modulus kappa of the Ld phase. A number from 1e-30 to 1e+30;
-   * energy. Default 1. */
+  /** [ld] bending_modulus: bending modulus kappa: of half the square of K_M less
+   * spontaneous_curvature (Helfrich). A number from 1e-30 to 1e+30; energy. Default 1. */
   void SetLdBendingModulus(double value);
   double GetLdBendingModulus();
   ///@}
 
   ///@{
-  /** [ld] spontaneous_curvature: its spontaneous curvature C: preferred sum of the principal
-   * curvatures. A number from -1e+30 to 1e+30; 1/length. Default 0. */
+  /** [ld] spontaneous_curvature: C: preferred sum of the principal curvatures, which is -2 on the
+   * unit sphere. A number from -1e+30 to 1e+30; 1/length. Default 0. */
   void SetLdSpontaneousCurvature(double value);
   double GetLdSpontaneousCurvature();
   ///@}
 
   ///@{
-  /** [ld] gaussian_modulus: its Gaussian modulus kappa_G; only the difference between the phases
-   * has an effect. A number from -1e+30 to 1e+30; energy. Default 0. */
+  /** [ld] gaussian_modulus: kappa_G: of the Gaussian curvature K; only a difference between phases
+   * has an effect on shapes. A number from -1e+30 to 1e+30; energy. Default 0. */
   void SetLdGaussianModulus(double value);
   double GetLdGaussianModulus();
   ///@}
 
   ///@{
-  /** [lo] bending_modulus: bending modulus kappa of the Lo phase. A number from 1e-30 to 1e+30;
-   * energy. Default 1. */
+  /** [ld] linear_modulus: of K_M, the sum of the principal curvatures. A number from -1e+30 to
+   * 1e+30; energy/length. Default 0. */
+  void SetLdLinearModulus(double value);
+  double GetLdLinearModulus();
+  ///@}
+
+  ///@{
+  /** [ld] cubic_modulus: of K_M^3. A number from -1e+30 to 1e+30; energy length. Default 0. */
+  void SetLdCubicModulus(double value);
+  double GetLdCubicModulus();
+  ///@}
+
+  ///@{
+  /** [ld] mixed_cubic_modulus: of K_M K. A number from -1e+30 to 1e+30; energy length. Default 0. */
+  void SetLdMixedCubicModulus(double value);
+  double GetLdMixedCubicModulus();
+  ///@}
+
+  ///@{
+  /** [ld] quartic_modulus: of K_M^4. A number from -1e+30 to 1e+30; energy length^2. Default 0. */
+  void SetLdQuarticModulus(double value);
+  double GetLdQuarticModulus();
+  ///@}
+
+  ///@{
+  /** [ld] mixed_quartic_modulus: of K_M^2 K. A number from -1e+30 to 1e+30; energy length^2.
+   * Default 0. */
+  void SetLdMixedQuarticModulus(double value);
+  double GetLdMixedQuarticModulus();
+  ///@}
+
+  ///@{
+  /** [ld] gaussian_square_modulus: of K^2. A number from -1e+30 to 1e+30; energy length^2. Default
+   * 0. */
+  void SetLdGaussianSquareModulus(double value);
+  double GetLdGaussianSquareModulus();
+  ///@}
+
+  ///@{
+  /** [lo] bending_modulus: bending modulus kappa: of half the square of K_M less
+   * spontaneous_curvature (Helfrich). A number from 1e-30 to 1e+30; energy. Default 1. */
   void SetLoBendingModulus(double value);
   double GetLoBendingModulus();
   ///@}
 
   ///@{
-  /** [lo] spontaneous_curvature: its spontaneous curvature C: preferred sum of the principal
-   * curvatures. A number from -1e+30 to 1e+30; 1/length. Default 0. */
+  /** [lo] spontaneous_curvature: C: preferred sum of the principal curvatures, which is -2 on the
+   * unit sphere. A number from -1e+30 to 1e+30; 1/length. Default 0. */
   void SetLoSpontaneousCurvature(double value);
   double GetLoSpontaneousCurvature();
   ///@}
 
   ///@{
-  /** [lo] gaussian_modulus: its Gaussian modulus kappa_G; only the difference between the phases
-   * has an effect. A number from -1e+30 to 1e+30; energy. Default 0. */
+  /** [lo] gaussian_modulus: kappa_G: of the Gaussian curvature K; only a difference between phases
+   * has an effect on shapes. A number from -1e+30 to 1e+30; energy. Default 0. */
   void SetLoGaussianModulus(double value);
   double GetLoGaussianModulus();
+  ///@}
+
+  ///@{
+  /** [lo] linear_modulus: of K_M, the sum of the principal curvatures. A number from -1e+30 to
+   * 1e+30; energy/length. Default 0. */
+  void SetLoLinearModulus(double value);
+  double GetLoLinearModulus();
+  ///@}
+
+  ///@{
+  /** [lo] cubic_modulus: of K_M^3. A number from -1e+30 to 1e+30; energy length. Default 0. */
+  void SetLoCubicModulus(double value);
+  double GetLoCubicModulus();
+  ///@}
+
+  ///@{
+  /** [lo] mixed_cubic_modulus: of K_M K. A number from -1e+30 to 1e+30; energy length. Default 0. */
+  void SetLoMixedCubicModulus(double value);
+  double GetLoMixedCubicModulus();
+  ///@}
+
+  ///@{
+  /** [lo] quartic_modulus: of K_M^4. A number from -1e+30 to 1e+30; energy length^2. Default 0. */
+  void SetLoQuarticModulus(double value);
+  double GetLoQuarticModulus();
+  ///@}
+
+  ///@{
+  /** [lo] mixed_quartic_modulus: of K_M^2 K. A number from -1e+30 to 1e+30; energy length^2.
+   * Default 0. */
+  void SetLoMixedQuarticModulus(double value);
+  double GetLoMixedQuarticModulus();
+  ///@}
+
+  ///@{
+  /** [lo] gaussian_square_modulus: of K^2. A number from -1e+30 to 1e+30; energy length^2. Default
+   * 0. */
+  void SetLoGaussianSquareModulus(double value);
+  double GetLoGaussianSquareModulus();
   ///@}
 
   ///@{

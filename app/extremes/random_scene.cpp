@@ -85,7 +85,7 @@ void draw_domains(Dice& dice, Scene& scene) {
   if (scene.shape.kind == ShapeKind::sphere && dice.chance(0.5))
     domains.bulge = dice.between(-20, 60);
   const auto phase = [&] {
-    Phase p;
+    SurfaceModuli p;
     p.bending_modulus = dice.decades(-1, 1);
     if (dice.chance(0.3)) p.spontaneous_curvature = dice.sign() * dice.decades(-1, 1);
     if (dice.chance(0.3)) p.gaussian_modulus = dice.sign() * dice.between(0, 4) * p.bending_modulus;

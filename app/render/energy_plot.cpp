@@ -8,28 +8,30 @@
 namespace lamella::render {
 namespace {
 
-/// What the whole energy consists of.
-struct Term {
+/// A curve: a term, or several together.
+struct Part {
   const char* name;
   Color color;
   double energy;
 };
 
-std::vector<Term> terms(const Measures& m) {
-  std::vector<Term> all;
-  if (m.phases)
-    all = {{"bending Ld", style::Ld.line, m.phases->bending_energy_Ld},
-           {"bending Lo", style::Lo.line, m.phases->bending_energy_Lo},
-           {"line", style::line_energy, m.phases->line_energy},
-           {"Gaussian", style::gaussian_energy, m.phases->gaussian_energy}};
-  else if (m.stretch || m.pressure_energy || m.area_difference_energy || m.film_energy)
-    all = {{"bending", style::membrane.line, m.bending_energy}};
-  if (m.stretch) all.push_back({"stretch", style::stretch_energy, m.stretch->energy});
-  if (m.pressure_energy) all.push_back({"pressure", style::pressure_energy, *m.pressure_energy});
-  if (m.area_difference_energy)
-    all.push_back({"area difference", style::area_difference_energy, *m.area_difference_energy});
-  if (m.film_energy) all.push_back({"films", style::film_energy, *m.film_energy});
-  return all;
+/// What the whole energy consists of.
+std::vector<Part> parts_of(const Measures& m) {
+  std::vector<Part> all;
+  bool has_line = false;
+  for (const TermInfo& term : energy_term_table) {
+    if (!m.terms[term.term]) continue;
+    if (term.seat == Seat::boundary) {
+      if (!has_line) all.push_back({"line", style::line_energy, m.terms.sum(Seat::boundary)});
+      has_line = true;
+    } else if (term.term == Term::bending && m.phases) {
+      all.push_back({"bending Ld", style::Ld.line, m.phases->bending_energy_Ld});
+      all.push_back({"bending Lo", style::Lo.line, m.phases->bending_energy_Lo});
+    } else {
+      all.push_back({term.label, style::of_term(term.term), m.terms.value(term.term)});
+    }
+  }
+  return all.size() == 1 ? std::vector<Part>{} : all;
 }
 
 /// The whole energy, then its terms.
@@ -37,9 +39,9 @@ std::vector<Series> energy_series(const std::vector<Measures>& history, const Un
   const Notation &t = notation_of("t"), &energy = notation_of("energy");
   std::vector<Series> all(1);
   for (const Measures& row : history) {
-    const std::vector<Term> parts = terms(row);
+    const std::vector<Part> parts = parts_of(row);
     if (!std::isfinite(row.time) || !std::isfinite(row.energy) ||
-        !std::ranges::all_of(parts, [](const Term& t) { return std::isfinite(t.energy); }))
+        !std::ranges::all_of(parts, [](const Part& t) { return std::isfinite(t.energy); }))
       continue;
     all.resize(1 + parts.size());
     const double time = t.value(row.time, units);

@@ -1,4 +1,5 @@
 #pragma once
+#include "energy/energy_terms.h"
 #include "render/picture.h"
 
 #include <array>
@@ -25,9 +26,25 @@ constexpr Color ochre{176, 122, 0}, teal{0, 128, 108}, violet{130, 90, 160}, sky
     pink{222, 92, 150}, brown{110, 58, 20};
 inline constexpr std::array curves{membrane.line, Lo.line, teal, ochre, violet, sky, pink, brown};
 
-/// Of energies other than those of a phase.
-constexpr Color line_energy = ochre, gaussian_energy = teal, stretch_energy = violet,
-                pressure_energy = sky, area_difference_energy = pink, film_energy = brown;
+/// Of the energy of the phase boundary.
+constexpr Color line_energy = ochre;
+/// Of a term that lives elsewhere.
+constexpr Color of_term(Term term) {
+  switch (term) {
+  case Term::gaussian:
+    return teal;
+  case Term::stretch:
+    return violet;
+  case Term::pressure:
+    return sky;
+  case Term::area_difference:
+    return pink;
+  case Term::film:
+    return brown;
+  default:
+    return membrane.line;
+  }
+}
 
 constexpr double type_size = 50; ///< 9 pt at 400 pixels per inch
 constexpr double small_type = 44;

@@ -4,6 +4,8 @@
 #include "scene/units.h"
 #include "store/history.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -22,6 +24,8 @@ const std::map<std::string_view, std::pair<const char*, const char*>> names{
     {"dt", {"time step", ""}},
     {"energy", {"energy", "*E*"}},
     {"bending_energy", {"bending energy", ""}},
+    {"gaussian_energy", {"Gaussian energy", ""}},
+    {"stretch_energy", {"stretch energy", ""}},
     {"int_KM2", {"", "∫ *K*_{M}² d*A*"}},
     {"P", {"pressure", "*P*"}},
     {"sigma", {"tension", "*σ*"}},
@@ -36,7 +40,6 @@ const std::map<std::string_view, std::pair<const char*, const char*>> names{
     {"max_speed", {"largest speed", ""}},
     {"bending_Ld", {"bending of Ld", ""}},
     {"bending_Lo", {"bending of Lo", ""}},
-    {"gaussian_energy", {"Gaussian energy", ""}},
     {"line_energy", {"line energy", ""}},
     {"sigma_Ld", {"tension", "*σ*_{Ld}"}},
     {"sigma_Lo", {"tension", "*σ*_{Lo}"}},
@@ -48,19 +51,8 @@ const std::map<std::string_view, std::pair<const char*, const char*>> names{
     {"max_line_speed", {"largest speed of the boundary", ""}},
     {"domains_Ld", {"Ld domains", ""}},
     {"domains_Lo", {"Lo domains", ""}},
-    {"stretch_energy", {"stretch energy", ""}},
     {"c_min", {"least", "*c*"}},
     {"c_max", {"greatest", "*c*"}},
-    {"pressure_energy", {"energy of the pressure", ""}},
-    {"area_difference_energy", {"energy of the area difference", ""}},
-    {"film_energy", {"energy of films", ""}},
-    {"line_tension_energy", {"energy of the line tension", ""}},
-    {"kg_energy", {"energy of", "*k*_{g}"}},
-    {"kn_energy", {"energy of", "*k*_{n}"}},
-    {"tau_g_energy", {"energy of", "*τ*_{g}"}},
-    {"kg2_energy", {"energy of", "*k*_{g}²"}},
-    {"kn2_energy", {"energy of", "*k*_{n}²"}},
-    {"tau_g2_energy", {"energy of", "*τ*_{g}²"}},
 };
 
 Notations all_notations() {
@@ -70,18 +62,23 @@ Notations all_notations() {
                 {"c", {"lipid per area,", "*c*"}},
                 {"velocity", {"", "*v*_{N}", "length/time"}}};
   Measures measures;
-  measures.phases.emplace().line_terms = {0, 0, 0, 0, 0, 0, 0};
+  measures.phases.emplace();
   measures.stretch.emplace();
-  measures.pressure_energy = measures.area_difference_energy = measures.film_energy =
-      measures.energy_rise = 0;
+  measures.energy_rise = 0;
+  for (const TermInfo& term : energy_term_table) {
+    measures.terms[term.term] = 0;
+    const bool has_symbol = *term.symbol != '\0';
+    all[term.column] = {has_symbol ? "energy of" : fmt::format("energy of {}", term.label),
+                        term.symbol, ""};
+  }
   for (const Field& field : row_of(measures)) {
     const auto known = names.find(field.column);
     Notation& notation = all[field.column];
     notation.unit_in_scene = field.unit;
-    if (known == names.end())
-      notation.name = field.column;
-    else
+    if (known != names.end())
       std::tie(notation.name, notation.letter) = known->second;
+    else if (notation.name.empty())
+      notation.name = field.column;
   }
   return all;
 }

@@ -1,31 +1,15 @@
 #pragma once
+#include "energy/energy_terms.h"
 
 #include "grid/grid.h"
 
 #include <optional>
-#include <string_view>
-#include <vector>
 
 namespace lamella {
-
-/// The terms of the line energy (Eq. 85); nothing where their modulus is 0.
-struct LineTerms {
-  std::optional<double> tension;                                        ///< kappa_l oint dl
-  std::optional<double> geodesic;                                       ///< kappa_g oint kg dl
-  std::optional<double> torsion;                                        ///< kappa_tau oint tau_g dl
-  std::optional<double> normal;                                         ///< kappa_n oint kn dl
-  std::optional<double> geodesic_square, torsion_square, normal_square; ///< of kg^2 and so on
-
-  double sum() const {
-    return tension.value_or(0) + geodesic.value_or(0) + torsion.value_or(0) + normal.value_or(0) +
-           geodesic_square.value_or(0) + torsion_square.value_or(0) + normal_square.value_or(0);
-  }
-};
 
 /// What is known of the two phases of a membrane and of the boundary between them.
 struct PhaseMeasures {
   double bending_energy_Ld = 0, bending_energy_Lo = 0; ///< kappa/2 int (K_M - C)^2 dA of each
-  double gaussian_energy = 0;                          ///< sum of kappa_G int K dA
   double line_energy = 0;                              ///< of all line moduli
   double sigma_Ld = 0, sigma_Lo = 0;                   ///< tensions
   double area_Ld = 0, area_Lo = 0;
@@ -34,41 +18,34 @@ struct PhaseMeasures {
   double line_radius = 0;             ///< smallest line_length / 2 pi of a single closed boundary
   double max_line_speed = 0;          ///< largest |velocity of the boundary along the membrane|
   int domains_Ld = 0, domains_Lo = 0; ///< connected parts of each phase
-  LineTerms line_terms{};             ///< what line_energy is the sum of
 };
 
 /// What is known of the local stretch of a membrane.
 struct StretchMeasures {
-  double energy = 0;
   double least = 1, greatest = 1; ///< of c
 };
 
 /// What is known of a state; one row of history.csv.
 struct Measures {
   double time = 0;
-  double dt = 0;             ///< the step that led here; 0 for the start
-  double energy = 0;         ///< all terms; falls with time
-  double bending_energy = 0; ///< kappa/2 int (K_M - C)^2 dA, of both phases
-  double int_KM2 = 0;        ///< int K_M^2 dA (the number that Tables 1 and 2 of the paper list)
-  double P = 0;              ///< pressure: multiplier of the volume
-  double sigma = 0;          ///< tension: multiplier of the area; with phases, their mean by area
+  double dt = 0;      ///< the step that led here; 0 for the start
+  double energy = 0;  ///< all terms; falls with time
+  double int_KM2 = 0; ///< int K_M^2 dA (the number that Tables 1 and 2 of the paper list)
+  double P = 0;       ///< pressure: multiplier of the volume
+  double sigma = 0;   ///< tension: multiplier of the area; with phases, their mean by area
   double K_multiplier =
       0; ///< multiplier of the area difference: coefficient of K in v_N, 2 h sigma_DA
   double area = 0, volume = 0;
-  double reduced_volume = 0;              ///< V / (4/3 pi Rs^3), Rs = sqrt(A / 4 pi)
-  double area_difference = 0;             ///< reduced: -int K_M dA / (8 pi Rs), 1 for a sphere
-  double area_drift = 0;                  ///< A over what it should be, less 1
-  double volume_drift = 0;                ///< of the volume, where it is held
-  double max_speed = 0;                   ///< largest |normal velocity|
-  int components = 0;                     ///< connected parts of the inside
-  int genus = 0;                          ///< sum over the components
-  std::optional<PhaseMeasures> phases;    ///< where the scene has domains
-  std::optional<StretchMeasures> stretch; ///< where the scene has a stretch modulus
-
-  // Terms of the energy, where the scene has them.
-  std::optional<double> pressure_energy{};        ///< -P V, under a pressure
-  std::optional<double> area_difference_energy{}; ///< 1/2 K_multiplier int K_M dA, of a given one
-  std::optional<double> film_energy{};            ///< of the disjoining pressure of films
+  double reduced_volume = 0;                ///< V / (4/3 pi Rs^3), Rs = sqrt(A / 4 pi)
+  double area_difference = 0;               ///< reduced: -int K_M dA / (8 pi Rs), 1 for a sphere
+  double area_drift = 0;                    ///< A over what it should be, less 1
+  double volume_drift = 0;                  ///< of the volume, where it is held
+  double max_speed = 0;                     ///< largest |normal velocity|
+  int components = 0;                       ///< connected parts of the inside
+  int genus = 0;                            ///< sum over the components
+  EnergyTerms terms{};                      ///< what `energy` is the sum of
+  std::optional<PhaseMeasures> phases{};    ///< where the scene has domains
+  std::optional<StretchMeasures> stretch{}; ///< where the scene has a stretch modulus
 
   /// Of the step that led here, over Vesicle::energy_scale() before it; 0 where the energy fell or
   /// the step was driven. Nothing in what earlier versions stored.
@@ -89,14 +66,5 @@ struct ComponentMeasures {
 
   bool operator==(const ComponentMeasures&) const = default;
 };
-
-/// One term of an energy, named so as to complete "most of it is ...".
-struct EnergyTerm {
-  std::string_view name;
-  double value;
-};
-
-/// All terms that a scene's energy has: Measures::energy is their sum.
-std::vector<EnergyTerm> energy_terms(const Measures& measures);
 
 } // namespace lamella

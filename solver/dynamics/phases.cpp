@@ -14,8 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Lengths in grid spacings. Half-widths of the strip along the boundary.
-constexpr double line_width = 5, moment_width = 5.5, modulus_width = 3.7;
+// Lengths in grid spacings.
 // psi is the distance up to here, and then levels off.
 constexpr double linear_until = 5, level_from = 9;
 // Of the boundary: within it psi follows the boundary's motion, beyond it nothing.
@@ -29,39 +28,37 @@ constexpr double inconsistent = 1.5; // distance from psi: the foot is not that 
 
 Vector3d vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
+Matrix3d curvature_tensor(const SurfaceGeometry& surface, std::size_t i) {
+  const double xx = surface.B(0)[i], yy = surface.B(1)[i], zz = surface.B(2)[i],
+               xy = surface.B(3)[i], xz = surface.B(4)[i], yz = surface.B(5)[i];
+  return (Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+}
+
 } // namespace
 
 PhaseIntegrals& PhaseIntegrals::operator+=(const PhaseIntegrals& o) {
   gram += o.gram;
   area_Ld += o.area_Ld;
   length += o.length;
-  bending_Ld += o.bending_Ld;
-  bending_Lo += o.bending_Lo;
-  int_K += o.int_K;
-  int_K_Ld += o.int_K_Ld;
   return *this;
 }
 
 Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier)
     : h_(scene.grid().spacing), ld_(scene.ld), lo_(scene.lo),
       curvature_start_time_(scene.curvature_start_time), line_(scene.line),
-      line_forces_(scene.line, h_), accurate_(SmearedStep::accurate(line_width * h_)),
-      monotonic_(SmearedStep::monotonic(modulus_width * h_)),
-      of_moments_(SmearedStep::of_moments(moment_width * h_)),
+      line_forces_(scene.line, h_), profiles_(StepProfiles::of_grid(h_)),
       held_(scene.stretch.modulus > 0, scene.area.of == Of::each, h_), fit_(scene.grid(), fourier),
-      psi_(scene.grid()), current_(moduli(0)) {
+      psi_(scene.grid()) {
   std::vector<double> nodal(psi.size());
   for (std::size_t i = 0; i < psi.size(); i++) nodal[i] = saturated(psi[i]);
   std::ranges::copy(nodal, psi_.coefficients().begin());
   psi_.fit(nodal, fourier, 60);
 }
 
-/// By Gauss and Bonnet kappa_g oint kg dl is, but for a constant, a Gaussian modulus of Ld.
-PhaseModuli Phases::moduli(double time) const {
-  Phase ld = ld_, lo = lo_;
-  ld.gaussian_modulus += line_.geodesic_modulus;
+SurfaceEnergy Phases::surface_energy(double time) const {
+  SurfaceModuli ld = ld_, lo = lo_;
   if (!is_curved(time)) ld.spontaneous_curvature = lo.spontaneous_curvature = 0;
-  return {ld, lo, accurate_, monotonic_, of_moments_};
+  return {ld, lo, line_.geodesic_modulus, profiles_};
 }
 
 double Phases::saturated(double s) const {
@@ -155,10 +152,8 @@ void Phases::restore_distance(const NarrowBand& band) {
 void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
                     const Components& vesicles) {
   const std::size_t n = surface.size(), own = surface.entry().size();
-  const double reach = std::max({accurate_.half_width(), monotonic_.half_width(),
-                                 of_moments_.half_width(), line_forces_.half_width()});
+  const double reach = std::max(profiles_.half_width(), line_forces_.half_width());
   share_.resize(n);
-  moment_share_.resize(n);
   delta_.assign(n, 0);
   strip_.clear();
   std::vector<double> second(n - own);
@@ -169,7 +164,7 @@ void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
   std::vector<Vector3d> points;
   for (std::size_t i = 0; i < n; i++) {
     const double about = i < own ? psi_.nodal()[band.node()[surface.entry()[i]]] : second[i - own];
-    share_[i] = moment_share_[i] = about < 0;
+    share_[i] = about < 0;
     if (std::abs(about) > reach + 0.5 * h_) continue;
     StripPoint s;
     s.sample = int(i);
@@ -192,62 +187,58 @@ void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
       s.gradient = psi[m].gradient - s.along_N * N;
       s.slope2 = s.gradient.squaredNorm();
       s.lap = s.hessian.trace() - N.dot(s.hessian * N) + surface.KM()[s.sample] * s.along_N;
-      const SmearedStep::Value v = accurate_.at(s.psi);
+      const SmearedStep::Value v = profiles_.accurate.at(s.psi);
       share_[s.sample] = 1 - v.step;
-      moment_share_[s.sample] = 1 - of_moments_.at(s.psi).step;
       delta_[s.sample] = v.delta * std::sqrt(s.slope2);
     }
   });
 }
 
-void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, double time,
+void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, SurfaceEnergy& energy,
                          std::span<double> variation) {
-  current_ = moduli(time);
-  find_boundary_force(phi, current_);
-  kappa_.resize(surface.size());
-  C_.resize(surface.size());
-  parallel_for(surface.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i++) {
-      const Phase& phase = share_[i] > 0.5 ? current_.ld() : current_.lo();
-      const Helfrich bending{phase.bending_modulus, phase.spontaneous_curvature};
-      kappa_[i] = phase.bending_modulus;
-      C_[i] = phase.spontaneous_curvature;
-      variation[i] = bending.variation(surface.KM()[i], surface.K()[i], surface.lap_KM()[i]);
-    }
+  find_boundary_force(phi, energy);
+  is_Ld_.resize(surface.size());
+  for (std::size_t i = 0; i < surface.size(); i++) is_Ld_[i] = share_[i] > 0.5;
+  jets_.sample.clear();
+  jets_.psi.resize(strip_.size());
+  for (const StripPoint& s : strip_) jets_.sample.push_back(s.sample);
+  parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; m++) jets_.psi[m] = jet_of(strip_[m], surface);
   });
-  std::vector<Vector3d> points;
-  for (const StripPoint& s : strip_) points.push_back(vec(surface.point(s.sample)));
-  const std::vector<Taylor> at_phi = taylor(phi, points);
-  parallel_for(strip_.size(), 256, [&](std::size_t begin, std::size_t end) {
+  energy.find_forces(surface, is_Ld_, jets_, variation);
+  add_line_forces(surface, variation);
+}
+
+/// psi along the membrane.
+SurfaceJet<double> Phases::jet_of(const StripPoint& s, const SurfaceGeometry& surface) const {
+  const std::size_t i = s.sample;
+  const Vector3d N = vec(surface.normal(i)), g = s.gradient;
+  const Matrix3d P = Matrix3d::Identity() - N * N.transpose(), B = curvature_tensor(surface, i);
+  const Vector3d Bg = B * g;
+  return {s.psi,
+          {g[0], g[1], g[2]},
+          {Bg[0], Bg[1], Bg[2]},
+          s.lap,
+          (B * (P * s.hessian * P + s.along_N * B)).trace()};
+}
+
+/// Adds what the line energy does to the membrane, spread over the strip.
+void Phases::add_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const {
+  parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; m++) {
       const StripPoint& s = strip_[m];
       const int i = s.sample;
-      const Vector3d N = vec(surface.normal(i)), g = s.gradient;
-      const Matrix3d P = Matrix3d::Identity() - N * N.transpose();
-      const Matrix3d B = -P * at_phi[m].hessian * P / surface.grad()[i];
-      const Matrix3d hess = P * s.hessian * P + s.along_N * B;
-      const double KM = surface.KM()[i], K = surface.K()[i], B_gg = g.dot(B * g),
-                   kn = s.slope2 > 0 ? KM - B_gg / s.slope2 : 0;
-      const PhaseModuli::Value v = current_.at(s.psi);
-      const auto& [k, k1, k2] = v.kappa;
-      const auto& [C, C1, C2] = v.C;
-      kappa_[i] = k;
-      C_[i] = C;
-      const double Q1 = k1 * C + k * C1, Q2 = k2 * C + 2 * k1 * C1 + k * C2;
-      const double lap_moment = k * surface.lap_KM()[i] + 2 * k1 * g.dot(vec(surface.grad_KM(i))) +
-                                (KM * k1 - Q1) * s.lap + (KM * k2 - Q2) * s.slope2;
-      double F = lap_moment + k * (0.5 * KM * KM * KM - 2 * KM * K + 2 * C * K - 0.5 * C * C * KM);
-      F -= line_.tension * delta_[i] * kn;
-      F -= v.kappa_G.d1 * (B * hess).trace() + v.kappa_G.d2 * B_gg -
-           KM * (v.kappa_G.d1 * s.lap + v.kappa_G.d2 * s.slope2);
-      variation[i] = F + line_forces_.variation(boundary_, s.foot, s.psi, s.slope2, s.lap);
+      const double along = dot(jets_.psi[m].grad, jets_.psi[m].B_grad),
+                   kn = s.slope2 > 0 ? surface.KM()[i] - along / s.slope2 : 0;
+      variation[i] += line_forces_.variation(boundary_, s.foot, s.psi, s.slope2, s.lap) -
+                      line_.tension * delta_[i] * kn;
     }
   });
 }
 
 /// The force along n on each point of the boundary. What the strip does as a whole is summed along
 /// the geodesic through the point, by Gauss's rule.
-void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli) {
+void Phases::find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energy) {
   const std::span<const BoundaryPoint> curve = boundary_.points();
   line_forces_.find(boundary_, phi);
   const LineForces::Stiffness of_line = line_forces_.of_boundary();
@@ -256,7 +247,7 @@ void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli)
   stiffness_ = (of_line.stiffness / (h_ * h_) + of_line.tension + line_.tension) / (h_ * h_);
   for (std::size_t j = 0; j < curve.size(); j++)
     force_[j] = line_.tension * curve[j].kg + line_forces_.along_boundary(j);
-  if (!moduli.differ()) return;
+  if (!energy.differs()) return;
   constexpr int rule = 16;
   constexpr double half_node[rule / 2] = {.0950125098376374, .2816035507792589, .4580167776572274,
                                           .6178762444026438, .7554044083550030, .8656312023878318,
@@ -271,8 +262,7 @@ void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli)
     node[rule / 2 + q] = half_node[q];
     weight[q] = weight[rule / 2 + q] = half_weight[q];
   }
-  const double reach =
-      std::max({accurate_.half_width(), monotonic_.half_width(), of_moments_.half_width()});
+  const double reach = profiles_.half_width();
   std::vector<Vector3d> points;
   for (const BoundaryPoint& c : curve)
     for (const double u : node) {
@@ -288,15 +278,11 @@ void Phases::find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli)
     for (int q = 0; q < rule; q++) {
       const std::size_t i = rule * j + q;
       const CurveGeometry c = curve_geometry(f[i], psi[i]);
-      const PhaseModuli::Value v = moduli.at(psi[i].value);
-      const double s = node[q] * reach, off = c.KM() - v.C.f;
-      const double density =
-          0.5 * v.kappa.d1 * off * off - v.kappa.f * v.C.d1 * off + v.kappa_G.d1 * c.K();
-      if (!std::isfinite(density)) continue;
-      const double width = weight[q] * reach * (1 - curve[j].kg * s);
-      force_[j] += width * density;
-      slope += width * (0.5 * v.kappa.d2 * off * off - 2 * v.kappa.d1 * v.C.d1 * off +
-                        v.kappa.f * (v.C.d1 * v.C.d1 - v.C.d2 * off) + v.kappa_G.d2 * c.K());
+      const Univariate density = energy.across(psi[i].value, c.KM(), c.K());
+      if (!std::isfinite(density.d1)) continue;
+      const double s = node[q] * reach, width = weight[q] * reach * (1 - curve[j].kg * s);
+      force_[j] += width * density.d1;
+      slope += width * density.d2;
     }
     stiffness_ = std::max(stiffness_, std::abs(slope));
   }
@@ -319,8 +305,7 @@ HeldAreas::Integrals Phases::integrate_held(const SurfaceGeometry& surface,
   return held_.integrate(surface, share_, variation, boundary_, free, drag_, vesicles);
 }
 
-PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface, std::span<const double> variation,
-                                 const Samples& samples) const {
+PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface, const Samples& samples) const {
   return parallel_sum<PhaseIntegrals>(
       samples.count(surface), 4096, [&](std::size_t begin, std::size_t end) {
         PhaseIntegrals sum;
@@ -332,12 +317,6 @@ PhaseIntegrals Phases::integrate(const SurfaceGeometry& surface, std::span<const
           sum.gram += w * q * KM * Eigen::Vector4d(1, KM, K, q * KM);
           sum.area_Ld += w * q;
           sum.length += w * delta_[i];
-          sum.int_K_Ld += w * moment_share_[i] * K;
-          sum.int_K += w * K;
-          if (variation.empty()) continue;
-          const double off = KM - C_[i], density = 0.5 * kappa_[i] * off * off;
-          sum.bending_Ld += w * q * density;
-          sum.bending_Lo += w * (1 - q) * density;
         }
         return sum;
       });
@@ -348,7 +327,7 @@ Eigen::VectorXd Phases::change_of_area(std::span<const double> psi, const Surfac
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(vesicles.count());
   for (const StripPoint& s : strip_)
     sum[vesicles.of_sample(std::size_t(s.sample))] -=
-        surface.weight()[s.sample] * accurate_.at(s.psi).delta * psi[s.sample];
+        surface.weight()[s.sample] * profiles_.accurate.at(s.psi).delta * psi[s.sample];
   return sum;
 }
 
@@ -359,33 +338,28 @@ Eigen::VectorXd Phases::length(const SurfaceGeometry& surface, const Components&
   return sum;
 }
 
-double Phases::gaussian_energy(const PhaseIntegrals& i) const {
-  return ld_.gaussian_modulus * i.int_K_Ld + lo_.gaussian_modulus * (i.int_K - i.int_K_Ld);
-}
-
 /// oint kg dl = int_Ld K dA - 2 pi chi, with the integral smeared as the force is: the boundary
 /// itself tells chi.
-LineTerms Phases::line_terms(const PhaseIntegrals& i) const {
+void Phases::find_line_energies(EnergyTerms& terms) const {
   constexpr double turn = 2 * std::numbers::pi;
-  LineTerms terms;
-  const auto term = [&](std::optional<double>& energy, double Line::*modulus) {
+  const auto find = [&](Term term, double Line::*modulus) {
     if (line_.*modulus == 0) return;
     Line part;
     part.*modulus = line_.*modulus;
-    energy = line_forces_.energy(LinePolynomial(part), boundary_);
+    terms[term] = line_forces_.energy(LinePolynomial(part), boundary_);
   };
-  if (line_.tension != 0) terms.tension = line_.tension * boundary_.length();
-  if (line_.geodesic_modulus != 0) {
-    const double oint_kg = boundary_.integral([](const CurveGeometry& c) { return c.kg; });
-    const double chi = std::round((i.int_K_Ld - oint_kg) / turn);
-    terms.geodesic = line_.geodesic_modulus * (i.int_K_Ld - turn * chi);
+  if (line_.tension != 0) terms[Term::line_tension] = line_.tension * boundary_.length();
+  if (const double modulus = line_.geodesic_modulus; modulus != 0) {
+    const double smeared = terms.value(Term::geodesic) / modulus,
+                 oint_kg = boundary_.integral([](const CurveGeometry&c) { return c.kg; }),
+                 chi = std::round((smeared - oint_kg) / turn);
+    terms[Term::geodesic] = modulus * (smeared - turn * chi);
   }
-  term(terms.torsion, &Line::torsion_modulus);
-  term(terms.normal, &Line::normal_modulus);
-  term(terms.geodesic_square, &Line::geodesic_square_modulus);
-  term(terms.torsion_square, &Line::torsion_square_modulus);
-  term(terms.normal_square, &Line::normal_square_modulus);
-  return terms;
+  find(Term::torsion, &Line::torsion_modulus);
+  find(Term::normal, &Line::normal_modulus);
+  find(Term::geodesic_square, &Line::geodesic_square_modulus);
+  find(Term::normal_square, &Line::normal_square_modulus);
+  find(Term::torsion_square, &Line::torsion_square_modulus);
 }
 
 double Phases::least_radius() const {

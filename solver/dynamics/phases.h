@@ -3,8 +3,7 @@
 #include "dynamics/line_forces.h"
 #include "dynamics/measures.h"
 #include "dynamics/stretch_field.h"
-#include "energy/helfrich.h"
-#include "energy/phase_moduli.h"
+#include "energy/surface_energy.h"
 #include "geometry/boundary_feet.h"
 #include "geometry/surface_geometry.h"
 #include "levelset/domains.h"
@@ -25,7 +24,6 @@ namespace lamella {
 struct PhaseIntegrals {
   Eigen::Vector4d gram = Eigen::Vector4d::Zero(); ///< int q K_M (1, K_M, K, q K_M) dA
   double area_Ld = 0, length = 0;
-  double bending_Ld = 0, bending_Lo = 0, int_K = 0, int_K_Ld = 0;
 
   PhaseIntegrals& operator+=(const PhaseIntegrals& other);
 };
@@ -49,18 +47,15 @@ public:
   void sample(const NarrowBand& band, const SurfaceGeometry& surface, const Components& vesicles);
   /// The variation F of the energy (a normal displacement u changes it by int F u dA) at the
   /// samples, and the force on the boundary. sample() up to date, fourth derivatives known.
-  void find_forces(const LevelSet& phi, const SurfaceGeometry& surface, double time,
+  void find_forces(const LevelSet& phi, const SurfaceGeometry& surface, SurfaceEnergy& energy,
                    std::span<double> variation);
 
   /// Lets the boundary be carried along by the flow of lipid.
   void add_flow(const StretchField& stretch);
 
-  /// `variation` empty: without that integral.
-  PhaseIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation,
-                           const Samples& samples) const;
-  LineTerms line_terms(const PhaseIntegrals& integrals) const;
-  double line_energy(const PhaseIntegrals& integrals) const { return line_terms(integrals).sum(); }
-  double gaussian_energy(const PhaseIntegrals& integrals) const;
+  PhaseIntegrals integrate(const SurfaceGeometry& surface, const Samples& samples) const;
+  /// Sets those of the boundary; those of the membrane are known.
+  void find_line_energies(EnergyTerms& terms) const;
 
   /// The areas that are held. sample() brings them up to date, find_forces() and add_flow() what
   /// integrate_held() needs.
@@ -77,6 +72,8 @@ public:
   /// Of each vesicle's boundary.
   Eigen::VectorXd length(const SurfaceGeometry& surface, const Components& vesicles) const;
 
+  /// Whether samples are in Ld, as of the last find_forces().
+  std::span<const char> is_Ld() const { return is_Ld_; }
   /// Share of Ld, 1 - H, at the samples.
   std::span<const double> share() const { return share_; }
   /// delta(psi) |grad_s psi| at the samples: int f delta dA = oint f dl.
@@ -113,9 +110,10 @@ public:
   /// Spontaneous curvatures are 0 before.
   double curvature_start_time() const { return curvature_start_time_; }
   bool is_curved(double time) const { return time >= curvature_start_time_ * (1 - 1e-12); }
-  double stiffest() const { return std::max(ld_.bending_modulus, lo_.bending_modulus); }
-  const Phase& ld() const { return ld_; }
-  const Phase& lo() const { return lo_; }
+  const SurfaceModuli& ld() const { return ld_; }
+  const SurfaceModuli& lo() const { return lo_; }
+  /// Of both phases.
+  SurfaceEnergy surface_energy(double time) const;
 
 private:
   /// A sample in the strip along the boundary.
@@ -130,20 +128,21 @@ private:
     BoundaryFeet::Foot foot;
   };
 
-  PhaseModuli moduli(double time) const;
+  SurfaceJet<double> jet_of(const StripPoint& point, const SurfaceGeometry& surface) const;
+  void add_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const;
   void restore_distance(const NarrowBand& band);
-  void find_boundary_force(const LevelSet& phi, const PhaseModuli& moduli);
+  void find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energy);
   double saturated(double s) const;
   double boundary_taper(double s) const;
 
   double h_;
   double drag_ = 1;
   double stiffness_ = 0; // of the boundary on a membrane at rest: force per length and displacement
-  Phase ld_, lo_;
+  SurfaceModuli ld_, lo_;
   double curvature_start_time_;
   Line line_;
   LineForces line_forces_;
-  SmearedStep accurate_, monotonic_, of_moments_;
+  StepProfiles profiles_;
   HeldAreas held_;
   SmoothFit fit_;
   LevelSet psi_;
@@ -151,10 +150,11 @@ private:
   BoundaryFeet feet_; // of the band's entries
   std::vector<Domain> domains_;
   std::vector<StripPoint> strip_;
-  std::vector<double> share_, delta_, moment_share_, kappa_, C_;
+  SurfaceEnergy::Strip jets_;
+  std::vector<char> is_Ld_; // at the samples
+  std::vector<double> share_, delta_;
   std::vector<double> force_, flow_; // along n, at the boundary's points
   std::vector<double> rates_, weights_;
-  PhaseModuli current_;
 };
 
 } // namespace lamella

@@ -47,8 +47,7 @@ const Start& checked(const Start& start, const Scene& scene) {
 Simulation::Simulation(const Scene& scene) : Simulation(scene, start_of(scene)) {}
 
 StepControl Simulation::control_of(const Scene& scene) {
-  return StepControl(
-      {scene.numerics.tolerance, scene.grid().spacing, scene.stiffest(), scene.longest_step()});
+  return StepControl({scene.numerics.tolerance, scene.grid().spacing, scene.longest_step()});
 }
 
 int Simulation::responses_of(const Scene& scene) {
@@ -311,7 +310,7 @@ double Simulation::choose_dt(double latest) const {
                   ? control_.first(vesicle_.max_force())
                   : control_.next(last_dt_, error_,
                                   std::max(vesicle_.max_speed(), vesicle_.max_line_speed()),
-                                  vesicle_.line_time());
+                                  vesicle_.relaxation_time());
   dt = std::min(dt, vesicle_.longest_step(time()));
   if (vesicle_.turns_at(time())) dt = std::min(dt, control_.first(vesicle_.max_speed()));
   const double left = latest - time();
@@ -380,22 +379,24 @@ std::string Simulation::why_not_kept() const {
 
 std::string Simulation::why_not_risen(const Measures& risen) const {
   std::pair<std::string_view, double> most{};
-  const std::vector<EnergyTerm> before = energy_terms(measures_), after = energy_terms(risen);
-  for (std::size_t i = 0; i < after.size(); i++)
-    if (const double rise = after[i].value - before[i].value; rise > most.second)
-      most = {after[i].name, rise};
+  for (const TermInfo& term : energy_term_table) {
+    const double rise = risen.terms.value(term.term) - measures_.terms.value(term.term);
+    if (rise > most.second) most = {term.phrase, rise};
+  }
   return fmt::format("the energy would rise from {:.6g} to {:.6g} in a step, however short, though "
                      "nothing drives the vesicle; most of it is {}. The grid does not resolve what "
                      "happens there; try more grid.nodes",
                      measures_.energy, risen.energy, most.first);
 }
 
+/// Throws where the state is none to go on from.
 void Simulation::check(const Measures& m) const {
   const SurfaceGeometry& surface = vesicle_.surface();
   for (double value :
        {m.energy, m.int_KM2, m.P, m.sigma, m.K_multiplier, m.area, m.volume, m.max_speed})
     if (!std::isfinite(value)) throw RunError("a measured value is not finite");
   if (!(m.volume > 0 && m.area > 0)) throw RunError("the membrane no longer encloses a volume");
+  if (const std::string why = vesicle_.why_not_stiff(); !why.empty()) throw RunError(why);
   for (std::size_t i = 0; i < surface.size(); i++) {
     const Vec3 p = surface.point(i);
     for (int d = 0; d < 3; d++)

@@ -8,7 +8,6 @@ public:
   struct Limits {
     double tolerance; ///< local error allowed, rms over the membrane, in grid spacings
     double spacing;   ///< h
-    double stiffness; ///< bending modulus
     double longest;   ///< upper bound of the step
   };
   explicit StepControl(const Limits& limits) : limits_(limits) {}
@@ -20,8 +19,7 @@ public:
   /// Step after one of length `last` that made the error `error` (spacings), with the membrane
   /// moving at most at max_speed: grows by at most 1.3, and never below a quarter of the time that
   /// a bump of the size of the grid takes to relax, once there; going below resolves noise only.
-  /// That time is h^4 / kappa, or `line_time` for one of the phase boundary where that is less.
-  double next(double last, double error, double max_speed, double line_time) const;
+  double next(double last, double error, double max_speed, double relaxation_time) const;
 
 private:
   Limits limits_;

@@ -106,14 +106,20 @@ void StretchField::extend(const NarrowBand& band, const SurfaceGeometry& surface
 }
 
 StretchMeasures StretchField::measures(const SurfaceGeometry& surface) const {
-  StretchMeasures m{0, 1e300, -1e300};
+  StretchMeasures m{1e300, -1e300};
   for (std::size_t i = 0; i < value_.size(); i++) {
     if (surface.weight()[i] == 0) continue;
-    m.energy += surface.weight()[i] * law_.at(value_[i]).f;
     m.least = std::min(m.least, value_[i]);
     m.greatest = std::max(m.greatest, value_[i]);
   }
   return m;
+}
+
+double StretchField::energy(const SurfaceGeometry& surface) const {
+  double energy = 0;
+  for (std::size_t i = 0; i < value_.size(); i++)
+    if (const double w = surface.weight()[i]; w != 0) energy += w * law_.at(value_[i]).f;
+  return energy;
 }
 
 } // namespace lamella

@@ -36,7 +36,7 @@ public:
   void extend(const NarrowBand& band, const SurfaceGeometry& surface, Extension& extension);
 
   StretchMeasures measures(const SurfaceGeometry& surface) const;
-  double energy(const SurfaceGeometry& surface) const { return measures(surface).energy; }
+  double energy(const SurfaceGeometry& surface) const;
   const StretchEnergy& law() const { return law_; }
   /// int c dA as it was at the start; 0: not known yet.
   double lipid() const { return lipid_; }

@@ -8,13 +8,12 @@ SurfaceIntegrals& SurfaceIntegrals::operator+=(const SurfaceIntegrals& other) {
   gram += other.gram;
   variation += other.variation;
   volume += other.volume;
-  energy += other.energy;
   area_Ld += other.area_Ld;
   return *this;
 }
 
-SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending,
-                           std::span<const double> variation, const Samples& samples) {
+SurfaceIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation,
+                           const Samples& samples) {
   return parallel_sum<SurfaceIntegrals>(
       samples.count(surface), 2048, [&](std::size_t begin, std::size_t end) {
         SurfaceIntegrals sum;
@@ -29,7 +28,6 @@ SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bendi
           if (!variation.empty())
             for (int m = 0; m < 3; m++) f[m] += w * products[m] * variation[i];
           sum.volume += w * (p[0] * n[0] + p[1] * n[1] + p[2] * n[2]) / 3;
-          sum.energy += w * bending.density(KM);
         }
         sum.gram.topLeftCorner<3, 3>() << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
         sum.variation << f[0], f[1], f[2];

@@ -1,5 +1,4 @@
 #pragma once
-#include "energy/helfrich.h"
 #include "geometry/surface_geometry.h"
 
 #include <Eigen/Core>
@@ -15,7 +14,6 @@ struct SurfaceIntegrals {
   Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();      ///< int g_i g_j dA, g = (1, K_M, K, q K_M)
   Eigen::Vector3d variation = Eigen::Vector3d::Zero(); ///< int g_i F dA, F the energy's variation
   double volume = 0;                                   ///< 1/3 int p.N dA
-  double energy = 0;                                   ///< bending energy
   double area_Ld = 0;                                  ///< of the Ld phase
 
   double area() const { return gram(0, 0); }
@@ -42,7 +40,7 @@ private:
 };
 
 /// `variation`: F at the samples; empty leaves those integrals 0.
-SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Helfrich& bending,
-                           std::span<const double> variation, const Samples& samples = {});
+SurfaceIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation,
+                           const Samples& samples = {});
 
 } // namespace lamella

@@ -1,11 +1,13 @@
 #include "dynamics/vesicle.h"
 
+#include "dynamics/event.h"
 #include "error.h"
 #include "levelset/topology.h"
 #include "parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numbers>
 
@@ -45,17 +47,19 @@ double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::p
 
 /// Without a membrane yet.
 Vesicle::Vesicle(const Scene& scene)
-    : bending_{scene.membrane.bending_modulus, scene.membrane.spontaneous_curvature},
-      film_{scene.contact.disjoining_pressure, scene.contact.disjoining_range}, constraints_(scene),
-      phi_(scene.grid()), band_(scene.grid(), band_half_width), extension_(scene.grid()),
-      surface_(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside(),
-               scene.has_phases()),
+    : ld_(scene.has_phases() ? scene.ld : scene.membrane),
+      lo_(scene.has_phases() ? scene.lo : scene.membrane),
+      energy_(scene.membrane), film_{scene.contact.disjoining_pressure,
+                                     scene.contact.disjoining_range},
+      constraints_(scene), phi_(scene.grid()), band_(scene.grid(), band_half_width),
+      extension_(scene.grid()),
+      surface_(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside()),
       components_(scene.grid(), keeps_apart(scene)) {}
 
 Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Vesicle(scene) {
   std::ranges::copy(start.phi, phi_.coefficients().begin());
   phi_.fit(start.phi, fourier);
-  if (scene.has_phases()) phases_.emplace(scene, start.psi, fourier);
+  if (scene.has_phases()) set_phases(scene, start.psi, fourier);
   if (scene.stretch.modulus > 0)
     stretch_.emplace(scene.stretch.modulus, scene.grid(), start.c, fourier);
   locate();
@@ -101,7 +105,7 @@ Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& f
     : Vesicle(scene) {
   std::ranges::copy(state.phi, phi_.coefficients().begin());
   if (scene.has_phases()) {
-    phases_.emplace(scene, state.psi, fourier);
+    set_phases(scene, state.psi, fourier);
     std::ranges::copy(state.psi, phases_->psi().coefficients().begin());
     phases_->held().restore(state.held);
   }
@@ -125,6 +129,12 @@ void Vesicle::shift(const std::array<int, 3>& cells) {
   if (phases_) lamella::shift(grid(), cells, phases_->psi().coefficients());
   if (stretch_) lamella::shift(grid(), cells, stretch_->c().coefficients());
   components_.shift(cells);
+}
+
+void Vesicle::set_phases(const Scene& scene, std::span<const double> psi, Fourier& fourier) {
+  phases_.emplace(scene, psi, fourier);
+  energy_ = phases_->surface_energy(0);
+  energy_is_curved_ = phases_->is_curved(0);
 }
 
 /// Those that are left to the size of the vesicle.
@@ -191,7 +201,7 @@ double Vesicle::measure_anew(double time) {
   locate();
   locate(); // some nodes of a new band find the right sheet only now
   surface_.curvatures(phi_, band_);
-  const double area = integrate(surface_, bending_, {}).area();
+  const double area = integrate(surface_, {}).area();
   measure(time);
   return area;
 }
@@ -359,13 +369,12 @@ void Vesicle::integrate_all(bool with_forces) {
   lengths_.setZero(components_.count());
   for (int k = 0; k < components_.count(); k++) {
     const Samples samples = components_.samples(k);
-    SurfaceIntegrals& of = of_each_.emplace_back(integrate(surface_, bending_, variation, samples));
+    SurfaceIntegrals& of = of_each_.emplace_back(integrate(surface_, variation, samples));
     if (phases_) {
-      const PhaseIntegrals p = phases_->integrate(surface_, variation, samples);
+      const PhaseIntegrals p = phases_->integrate(surface_, samples);
       of.area_Ld = p.area_Ld;
       of.gram.row(with_boundary) = p.gram.transpose();
       of.gram.col(with_boundary) = p.gram;
-      if (with_forces) of.energy = p.bending_Ld + p.bending_Lo;
       lengths_[k] = p.length;
       phase_integrals_ += p;
     }
@@ -374,22 +383,25 @@ void Vesicle::integrate_all(bool with_forces) {
 }
 
 void Vesicle::measure_forces(double time) {
-  surface_.jets(phi_, band_);
-  const double h = grid().spacing;
-  double limit = force_limit * stiffness() / (h * h * h);
-  variation_.resize(surface_.size());
-  if (phases_) {
-    phases_->find_forces(phi_, surface_, time, variation_);
-    limit += phases_->line_forces().greatest();
-  } else {
-    for (std::size_t i = 0; i < surface_.size(); i++)
-      variation_[i] = bending_.variation(surface_.KM()[i], surface_.K()[i], surface_.lap_KM()[i]);
+  if (phases_ && energy_is_curved_ != phases_->is_curved(time)) {
+    energy_ = phases_->surface_energy(time);
+    energy_is_curved_ = !energy_is_curved_;
   }
+  surface_.jets(phi_, band_,
+                phases_ ? std::max(Derivatives::gradient, energy_.needs()) : energy_.needs());
+  variation_.resize(surface_.size());
+  if (phases_)
+    phases_->find_forces(phi_, surface_, energy_, variation_);
+  else
+    energy_.find_forces(surface_, {}, {}, variation_);
+  stiffness_ = energy_.stiffness(surface_, phases_ ? phases_->is_Ld() : std::span<const char>());
   if (stretch_) {
     stretch_->sample(surface_);
     stretch_->add_variation(surface_, variation_);
     if (phases_) phases_->add_flow(*stretch_);
   }
+  const double h = grid().spacing, limit = force_limit * stiffness() / (h * h * h) +
+                                           (phases_ ? phases_->line_forces().greatest() : 0);
   max_force_ = 0;
   for (double& F : variation_) {
     max_force_ = std::max(max_force_, std::abs(F));
@@ -454,12 +466,20 @@ double Vesicle::velocity(std::size_t i) const {
 
 double Vesicle::max_line_speed() const { return phases_ ? phases_->max_line_speed() : 0; }
 
-double Vesicle::line_time() const {
-  return phases_ ? phases_->relaxation_time() : std::numeric_limits<double>::infinity();
+double Vesicle::relaxation_time() const {
+  const double of_membrane = std::pow(grid().spacing, 4) / stiffness();
+  return phases_ ? std::min(of_membrane, phases_->relaxation_time()) : of_membrane;
 }
 
-double Vesicle::stiffness() const {
-  return phases_ ? phases_->stiffest() : bending_.bending_modulus;
+std::string Vesicle::why_not_stiff() const {
+  if (stiffness_.least > 0) return {};
+  const std::size_t i = stiffness_.softest;
+  const double mean = 0.5 * surface_.KM()[i],
+               apart = std::sqrt(std::max(0.0, mean * mean - surface_.K()[i]));
+  return fmt::format("where its principal curvatures are {:.4g} and {:.4g}, at {}, the membrane "
+                     "no longer resists bending: with these moduli the energy has no lower bound. "
+                     "Smaller cubic, mixed or negative moduli, or a larger quartic one, bound it",
+                     mean - apart, mean + apart, place_text(surface_.point(i), grid().spacing));
 }
 
 double Vesicle::greatest_tension() const {
@@ -467,11 +487,10 @@ double Vesicle::greatest_tension() const {
 }
 
 double Vesicle::curvature_tension() const {
-  auto of = [](double kappa, double C) { return 0.5 * kappa * C * C; };
-  if (!phases_) return of(bending_.bending_modulus, bending_.spontaneous_curvature);
-  const Phase &ld = phases_->ld(), &lo = phases_->lo();
-  return std::max(of(ld.bending_modulus, ld.spontaneous_curvature),
-                  of(lo.bending_modulus, lo.spontaneous_curvature));
+  auto of = [](const SurfaceModuli& m) {
+    return 0.5 * m.bending_modulus * m.spontaneous_curvature * m.spontaneous_curvature;
+  };
+  return std::max(of(ld_), of(lo_));
 }
 
 void Vesicle::keep_apart(double time) {
@@ -502,24 +521,26 @@ bool Vesicle::turns_at(double time) const {
          (phases_ && phases_->is_curved(time) && !phases_->is_curved(time * (1 - 1e-9)));
 }
 
-double Vesicle::energy() const {
-  const double interfacial =
-      phases_ ? phases_->line_energy(phase_integrals_) + phases_->gaussian_energy(phase_integrals_)
-              : 0;
-  const double stretching = stretch_ ? stretch_->energy(surface_) : 0;
+EnergyTerms Vesicle::energies() const {
+  EnergyTerms terms;
+  energy_.find_energies(surface_, terms);
+  if (phases_) phases_->find_line_energies(terms);
+  if (stretch_) terms[Term::stretch] = stretch_->energy(surface_);
+  if (film_.exists()) terms[Term::film] = film_energy_;
   const Quantities now = quantities(of_each_);
-  return integrals_.energy + interfacial + stretching + film_energy_ +
-         constraints_.potential(0, now).value_or(0) + constraints_.potential(2, now).value_or(0);
+  terms[Term::pressure] = constraints_.potential(0, now);
+  terms[Term::area_difference] = constraints_.potential(2, now);
+  return terms;
 }
 
 double Vesicle::energy_scale() const {
-  const double softest =
-      phases_ ? std::min(phases_->ld().bending_modulus, phases_->lo().bending_modulus)
-              : bending_.bending_modulus;
+  const double softest = std::min(ld_.bending_modulus, lo_.bending_modulus);
   const double line = phases_ ? phases_->line().tension * phases_->boundary().length() : 0;
   const double stretching = stretch_ ? stretch_->energy(surface_) : 0;
+  EnergyTerms bending;
+  energy_.find_energies(surface_, bending);
   return std::max(8 * std::numbers::pi * softest,
-                  integrals_.energy + line + stretching + film_energy_);
+                  bending.value(Term::bending) + line + stretching + film_energy_);
 }
 
 Measures Vesicle::measures(double time) const {
@@ -527,8 +548,8 @@ Measures Vesicle::measures(double time) const {
   const double A = integrals_.area(), V = integrals_.volume, radius = sphere_radius(A),
                pi = std::numbers::pi;
   m.time = time;
-  m.bending_energy = integrals_.energy;
-  m.energy = energy();
+  m.terms = energies();
+  m.energy = m.terms.sum();
   m.int_KM2 = integrals_.int_KM2();
   const Quantities now = quantities(of_each_);
   m.P = mean(multipliers_.row(0), now.row(0));
@@ -543,12 +564,9 @@ Measures Vesicle::measures(double time) const {
   m.max_speed = max_speed_;
   if (phases_) {
     PhaseMeasures& p = m.phases.emplace();
-    const PhaseIntegrals& i = phase_integrals_;
-    p.bending_energy_Ld = i.bending_Ld;
-    p.bending_energy_Lo = i.bending_Lo;
-    p.gaussian_energy = phases_->gaussian_energy(i);
-    p.line_terms = phases_->line_terms(i);
-    p.line_energy = p.line_terms.sum();
+    p.bending_energy_Ld = energy_.bending_Ld(surface_, phases_->share());
+    p.bending_energy_Lo = m.terms.value(Term::bending) - p.bending_energy_Ld;
+    p.line_energy = m.terms.sum(Seat::boundary);
     p.sigma_Ld = mean(multipliers_.row(1), now.row(3)) + phases_->held().mean_Ld();
     p.sigma_Lo = mean(multipliers_.row(1), now.row(1) - now.row(3)) + phases_->held().mean_Lo();
     p.area_Ld = integrals_.area_Ld;
@@ -561,9 +579,6 @@ Measures Vesicle::measures(double time) const {
     m.sigma = (p.sigma_Ld * p.area_Ld + p.sigma_Lo * p.area_Lo) / A;
   }
   if (stretch_) m.stretch = stretch_->measures(surface_);
-  m.pressure_energy = constraints_.potential(0, now);
-  m.area_difference_energy = constraints_.potential(2, now);
-  if (film_.exists()) m.film_energy = film_energy_;
   m.energy_rise = 0;
   const Topology topology = topology_of(grid(), phi_.nodal());
   m.components = topology.components;

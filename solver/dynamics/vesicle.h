@@ -7,7 +7,7 @@
 #include "dynamics/stretch_field.h"
 #include "dynamics/surface_integrals.h"
 #include "energy/film.h"
-#include "energy/helfrich.h"
+#include "energy/surface_energy.h"
 #include "geometry/surface_geometry.h"
 #include "levelset/extension.h"
 #include "levelset/level_set.h"
@@ -15,6 +15,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace lamella {
@@ -63,7 +64,7 @@ public:
   bool set_out(double time);
 
   /// All terms.
-  double energy() const;
+  EnergyTerms energies() const;
   /// What changes of the energy are compared with: the sum of those terms that cannot be negative
   /// (bending, line tension, stretch, films), or the bending energy of a sphere, 8 pi kappa of the
   /// softer phase, where that is more. Never 0, unlike the energy.
@@ -79,8 +80,8 @@ public:
   double max_speed() const { return max_speed_; }
   /// Of the phase boundary along the membrane.
   double max_line_speed() const;
-  /// In which a bump of the phase boundary of the size of the grid relaxes; without one infinity.
-  double line_time() const;
+  /// In which a bump of the size of the grid relaxes, of the membrane or of the phase boundary.
+  double relaxation_time() const;
   double max_force() const { return max_force_; }
   /// What constraints, films and the start of spontaneous curvature allow.
   double longest_step(double time) const;
@@ -104,8 +105,10 @@ public:
   const Components& components() const { return components_; }
   const Multipliers& multipliers() const { return multipliers_; }
   const Constraints& constraints() const { return constraints_; }
-  /// The largest bending modulus.
-  double stiffness() const;
+  /// The largest of what resists short waves: where only bending does, the bending modulus.
+  double stiffness() const { return stiffness_.most; }
+  /// Nothing, or why the energy does not resist short waves everywhere.
+  std::string why_not_stiff() const;
   /// The largest tension of a phase or a domain.
   double greatest_tension() const;
   /// Bound of kappa/2 C^2.
@@ -136,6 +139,7 @@ private:
   /// -1 / drag.
   static constexpr int directions = 4, with_boundary = 3;
 
+  void set_phases(const Scene& scene, std::span<const double> psi, Fourier& fourier);
   void set_lengths(const Scene& scene);
   double leave_sphere();
   void note_origin();
@@ -154,7 +158,10 @@ private:
   void find_velocities(double time);
   void push_films_apart();
 
-  Helfrich bending_;
+  SurfaceModuli ld_, lo_; ///< with one phase both are the same
+  SurfaceEnergy energy_;
+  SurfaceEnergy::Stiffness stiffness_;
+  bool energy_is_curved_ = true; // the phases have their spontaneous curvatures
   Film film_;
   Constraints constraints_;
   std::optional<Phases> phases_;

@@ -27,11 +27,7 @@ void SurfaceGeometry::sample(const LevelSet& phi, const NarrowBand& band) {
     if (sampled_[s]) entry_.push_back(int(s));
   }
   second_.find(phi, band, kernel_.begin * h, kernel_.end * h);
-  for (auto* a :
-       {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &sharpest_, &weight_})
-    a->resize(entry_.size() + second_.size());
-  if (with_gradient_)
-    for (auto* a : {&KMx_, &KMy_, &KMz_}) a->resize(size());
+  resize(entry_.size() + second_.size());
   const ConstPoints first = band.points(), second = second_.points();
   for (std::size_t i = 0; i < size(); i++) {
     const bool own = i < entry_.size();
@@ -43,23 +39,79 @@ void SurfaceGeometry::sample(const LevelSet& phi, const NarrowBand& band) {
   }
 }
 
-void SurfaceGeometry::curvatures(const LevelSet& phi, NarrowBand& band) {
-  evaluate(phi, band, false);
+void SurfaceGeometry::resize(std::size_t samples) {
+  for (auto* a :
+       {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &sharpest_, &weight_})
+    a->resize(samples);
 }
-void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band) { evaluate(phi, band, true); }
 
-void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order) {
+void SurfaceGeometry::curvatures(const LevelSet& phi, NarrowBand& band) {
+  evaluate(phi, band, kernels().curvatures, Derivatives::laplacian);
+}
+
+void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band, Derivatives wanted) {
+  make_room(wanted);
+  evaluate(phi, band, wanted == Derivatives::all ? kernels().full_jets : kernels().jets, wanted);
+}
+
+void SurfaceGeometry::jets_at(const LevelSet& phi, std::span<const Vec3> points,
+                              Derivatives wanted) {
+  entry_.clear();
+  resize(points.size());
+  make_room(wanted);
+  const SplineView spline = phi.view();
+  const auto kernel = wanted == Derivatives::all ? kernels().full_jets : kernels().jets;
+  parallel_for(size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      x_[i] = points[i][0];
+      y_[i] = points[i][1];
+      z_[i] = points[i][2];
+      weight_[i] = 0;
+    }
+    kernel(spline, end - begin, {&x_[begin], &y_[begin], &z_[begin]}, arrays_from(begin, wanted));
+  });
+}
+
+void SurfaceGeometry::make_room(Derivatives wanted) {
+  derivatives_ = wanted;
+  if (wanted >= Derivatives::gradient) {
+    for (Array<double>& a : grad_KM_) a.resize(size());
+    for (Array<double>& a : B_) a.resize(size());
+  }
+  if (wanted == Derivatives::all) {
+    for (Array<double>& a : grad_K_) a.resize(size());
+    for (Array<double>* a : {&B_hess_KM_, &lap_K_, &B_hess_K_}) a->resize(size());
+  }
+}
+
+SurfaceArrays SurfaceGeometry::arrays_from(std::size_t i, Derivatives wanted) {
+  SurfaceArrays out{.phi = &phi_[i],
+                    .nx = &nx_[i],
+                    .ny = &ny_[i],
+                    .nz = &nz_[i],
+                    .grad = &grad_[i],
+                    .KM = &KM_[i],
+                    .K = &K_[i],
+                    .lap_KM = &lap_KM_[i]};
+  if (wanted >= Derivatives::gradient) {
+    for (int d = 0; d < 3; d++) out.grad_KM[d] = &grad_KM_[d][i];
+    for (int c = 0; c < 6; c++) out.B[c] = &B_[c][i];
+  }
+  if (wanted == Derivatives::all) {
+    for (int d = 0; d < 3; d++) out.grad_K[d] = &grad_K_[d][i];
+    out.B_hess_KM = &B_hess_KM_[i];
+    out.lap_K = &lap_K_[i];
+    out.B_hess_K = &B_hess_K_[i];
+  }
+  return out;
+}
+
+template <class Kernel>
+void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, Kernel kernel,
+                               Derivatives wanted) {
   const SplineView spline = phi.view();
   parallel_for(size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
-    SurfaceArrays out{&phi_[begin], &nx_[begin], &ny_[begin],     &nz_[begin], &grad_[begin],
-                      &KM_[begin],  &K_[begin],  &lap_KM_[begin], {}};
-    if (with_gradient_) {
-      out.grad_KM[0] = &KMx_[begin];
-      out.grad_KM[1] = &KMy_[begin];
-      out.grad_KM[2] = &KMz_[begin];
-    }
-    (fourth_order ? kernels().jets : kernels().curvatures)(
-        spline, end - begin, {&x_[begin], &y_[begin], &z_[begin]}, out);
+    kernel(spline, end - begin, {&x_[begin], &y_[begin], &z_[begin]}, arrays_from(begin, wanted));
     finish(band, begin, end);
   });
 }

@@ -4,10 +4,18 @@
 #include "levelset/quadrature.h"
 #include "levelset/second_sheets.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
 namespace lamella {
+
+/// How much is known of the curvatures along the membrane.
+enum class Derivatives {
+  laplacian, ///< Lap_s K_M
+  gradient,  ///< also grad_s K_M and the curvature tensor B
+  all        ///< also B : grad_s grad_s K_M, and the same of K
+};
 
 /// The membrane as a cloud of samples: the nearest points of the band nodes within a few spacings
 /// of it, each with the geometry of the surface there and a quadrature weight. About 5 samples a
@@ -17,18 +25,20 @@ namespace lamella {
 /// K_M = -2 and K = 1 on the unit sphere; N points outwards.
 class SurfaceGeometry {
 public:
-  /// `gradient_of_KM`: whether jets() finds it.
-  explicit SurfaceGeometry(QuadratureKernel kernel = QuadratureKernel::outside(),
-                           bool gradient_of_KM = false)
-      : kernel_(kernel), with_gradient_(gradient_of_KM) {}
+  explicit SurfaceGeometry(QuadratureKernel kernel = QuadratureKernel::outside())
+      : kernel_(kernel) {}
 
   /// Takes the samples that the band offers.
   void sample(const LevelSet& phi, const NarrowBand& band);
 
   /// Normals, |grad phi|, K_M and K at the sample points (second derivatives of phi), and weights.
   void curvatures(const LevelSet& phi, NarrowBand& band);
-  /// The same and Lap_s K_M (fourth derivatives).
-  void jets(const LevelSet& phi, NarrowBand& band);
+  /// The same and derivatives of the curvatures (fourth derivatives of phi).
+  void jets(const LevelSet& phi, NarrowBand& band, Derivatives wanted = Derivatives::laplacian);
+  /// The same at points on the membrane that are given, without weights.
+  void jets_at(const LevelSet& phi, std::span<const Vec3> points, Derivatives wanted);
+  /// What the last jets() found.
+  Derivatives derivatives() const { return derivatives_; }
 
   /// Moves sample i along its normal; the others stay.
   void displace(std::size_t i, double distance, NarrowBand& band);
@@ -47,8 +57,14 @@ public:
   std::span<const double> KM() const { return KM_; }
   std::span<const double> K() const { return K_; }
   std::span<const double> lap_KM() const { return lap_KM_; }
-  /// Of K_M in space; its part along the membrane is the surface gradient.
-  Vec3 grad_KM(std::size_t i) const { return {KMx_[i], KMy_[i], KMz_[i]}; }
+  std::span<const double> grad_KM(int axis) const { return grad_KM_[axis]; }
+  std::span<const double> grad_K(int axis) const { return grad_K_[axis]; }
+  /// Curvature tensor, trace K_M: xx, yy, zz, xy, xz, yz.
+  std::span<const double> B(int component) const { return B_[component]; }
+  std::span<const double> lap_K() const { return lap_K_; }
+  /// B : grad_s grad_s K_M, and of K.
+  std::span<const double> B_hess_KM() const { return B_hess_KM_; }
+  std::span<const double> B_hess_K() const { return B_hess_K_; }
   /// Largest |principal curvature|, before K_M and K were limited to what the grid can carry.
   double sharpest(std::size_t i) const { return sharpest_[i]; }
   /// int f dA = sum of weight f.
@@ -58,17 +74,23 @@ public:
   Vec3 normal(std::size_t i) const { return {nx_[i], ny_[i], nz_[i]}; }
 
 private:
-  void evaluate(const LevelSet& phi, NarrowBand& band, bool fourth_order);
+  void resize(std::size_t samples);
+  void make_room(Derivatives wanted);
+  SurfaceArrays arrays_from(std::size_t sample, Derivatives wanted);
+  template <class Kernel>
+  void evaluate(const LevelSet& phi, NarrowBand& band, Kernel kernel, Derivatives wanted);
   void finish(NarrowBand& band, std::size_t begin, std::size_t end);
 
   QuadratureKernel kernel_;
-  bool with_gradient_;
   Grid grid_;
   std::vector<int> entry_;
   std::vector<char> sampled_;
   SecondSheets second_;
   Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, sharpest_, weight_;
-  Array<double> KMx_, KMy_, KMz_;
+  Derivatives derivatives_ = Derivatives::laplacian;
+  std::array<Array<double>, 3> grad_KM_, grad_K_;
+  std::array<Array<double>, 6> B_;
+  Array<double> B_hess_KM_, lap_K_, B_hess_K_;
 };
 
 } // namespace lamella

@@ -23,13 +23,18 @@ struct ConstPoints {
   const double *x, *y, *z;
 };
 
-/// Derivatives up to order 2 give all but lap_KM; arrays of one value a point.
+/// Arrays of one value a point. Those down to K come from derivatives up to order 2, the others
+/// from order 4; where a group of pointers is null, it is not wanted.
 struct SurfaceArrays {
   double* phi;                 ///< value of the spline
   double *nx, *ny, *nz, *grad; ///< unit normal and |grad phi|
   double *KM, *K;              ///< sum and product of the principal curvatures of the level surface
   double* lap_KM;              ///< surface Laplacian of KM
-  double* grad_KM[3];          ///< gradient of KM in space, x, y, z; null where it is not wanted
+  double* grad_KM[3] = {};     ///< surface gradient of KM, x, y, z
+  double* B[6] = {};           ///< curvature tensor (trace KM), xx, yy, zz, xy, xz, yz
+  double* B_hess_KM = nullptr; ///< B : grad_s grad_s KM
+  double* grad_K[3] = {};      ///< surface gradient of K
+  double *lap_K = nullptr, *B_hess_K = nullptr; ///< Lap_s K, B : grad_s grad_s K
 };
 
 /// One step of the blended SBDF2/Euler scheme in Fourier space, for a row of modes along x.
@@ -60,12 +65,15 @@ struct Kernels {
   void (*closest_points)(const SplineView& spline, std::size_t n, ConstPoints x, Points p,
                          int iterations, bool verify, double* step);
 
-  /// Order-2 surface quantities (all of SurfaceArrays but lap_KM and grad_KM) at points.
+  /// SurfaceArrays down to K, at points.
   void (*curvatures)(const SplineView& spline, std::size_t n, ConstPoints p,
                      const SurfaceArrays& out);
 
-  /// All of SurfaceArrays, from derivatives up to order 4.
+  /// SurfaceArrays down to lap_KM, grad_KM and B where they are wanted.
   void (*jets)(const SplineView& spline, std::size_t n, ConstPoints p, const SurfaceArrays& out);
+  /// All of SurfaceArrays.
+  void (*full_jets)(const SplineView& spline, std::size_t n, ConstPoints p,
+                    const SurfaceArrays& out);
 
   /// Value, gradient (x, y, z) and Hessian (xx, yy, zz, xy, xz, yz) at points: out has ten arrays
   /// of n numbers, one after the other.

@@ -227,33 +227,98 @@ void curvatures(const SplineView& s, std::size_t n, ConstPoints p, const Surface
   }
 }
 
-/// Lap_s K_M with K_M = -div N of all level surfaces around, Eq. 58 (corrected, see
-/// docs/theory.md): Lap_s F = Lap F + K_M N.grad F - N.Hess(F).N. No property of a distance
-/// function is used. `gradient` receives that of K_M in space.
-LAMELLA_INLINE V8 laplacian_of_KM(const V8* d, const Curvatures& c, V8* gradient) {
+/// A derivative of phi with its own first and second derivatives, from those up to order 4.
+LAMELLA_INLINE Taylor2 derivative_of_phi(const V8* d, int i, int j, int k) {
   constexpr const auto& s = derivative_index<4>.slot;
-  auto derivative = [&](int i, int j, int k) {
-    return Taylor2{d[s[i][j][k]],        d[s[i + 1][j][k]],     d[s[i][j + 1][k]],
-                   d[s[i][j][k + 1]],    d[s[i + 2][j][k]],     d[s[i][j + 2][k]],
-                   d[s[i][j][k + 2]],    d[s[i + 1][j + 1][k]], d[s[i + 1][j][k + 1]],
-                   d[s[i][j + 1][k + 1]]};
-  };
-  const Taylor2 x = derivative(1, 0, 0), y = derivative(0, 1, 0), z = derivative(0, 0, 1);
-  const Taylor2 xx = derivative(2, 0, 0), yy = derivative(0, 2, 0), zz = derivative(0, 0, 2);
-  const Taylor2 xy = derivative(1, 1, 0), xz = derivative(1, 0, 1), yz = derivative(0, 1, 1);
-  const Taylor2 x2 = x * x, y2 = y * y, z2 = z * z;
-  const Taylor2 cross = x * (y * xy + z * xz) + y * z * yz;
-  const Taylor2 numerator = x2 * (yy + zz) + y2 * (xx + zz) + z2 * (xx + yy) - cross - cross;
-  const Taylor2 F =
-      numerator * inverse_cubed_root(x2 + y2 + z2, c.inv_s, 1.0 / c.grad); // div N = -K_M
-  gradient[0] = -F.x;
-  gradient[1] = -F.y;
-  gradient[2] = -F.z;
-  const V8* n = c.normal;
-  const V8 along = n[0] * F.x + n[1] * F.y + n[2] * F.z;
-  const V8 twice_along = n[0] * n[0] * F.xx + n[1] * n[1] * F.yy + n[2] * n[2] * F.zz +
-                         2.0 * (n[0] * n[1] * F.xy + n[0] * n[2] * F.xz + n[1] * n[2] * F.yz);
-  return -(F.xx + F.yy + F.zz - twice_along - F.f * along);
+  return {d[s[i][j][k]],         d[s[i + 1][j][k]],    d[s[i][j + 1][k]], d[s[i][j][k + 1]],
+          d[s[i + 2][j][k]],     d[s[i][j + 2][k]],    d[s[i][j][k + 2]], d[s[i + 1][j + 1][k]],
+          d[s[i + 1][j][k + 1]], d[s[i][j + 1][k + 1]]};
+}
+
+/// The first and second derivatives of phi, with their own.
+struct GradientAndHessian {
+  Taylor2 x, y, z, xx, yy, zz, xy, xz, yz, x2, y2, z2;
+};
+LAMELLA_INLINE GradientAndHessian gradient_and_hessian(const V8* d) {
+  const Taylor2 x = derivative_of_phi(d, 1, 0, 0), y = derivative_of_phi(d, 0, 1, 0),
+                z = derivative_of_phi(d, 0, 0, 1);
+  return {x,
+          y,
+          z,
+          derivative_of_phi(d, 2, 0, 0),
+          derivative_of_phi(d, 0, 2, 0),
+          derivative_of_phi(d, 0, 0, 2),
+          derivative_of_phi(d, 1, 1, 0),
+          derivative_of_phi(d, 1, 0, 1),
+          derivative_of_phi(d, 0, 1, 1),
+          x * x,
+          y * y,
+          z * z};
+}
+
+/// K_M = -div N of all level surfaces around, in space.
+LAMELLA_INLINE Taylor2 KM_around(const GradientAndHessian& g, const Curvatures& c) {
+  const Taylor2 cross = g.x * (g.y * g.xy + g.z * g.xz) + g.y * g.z * g.yz;
+  const Taylor2 numerator =
+      cross + cross - g.x2 * (g.yy + g.zz) - g.y2 * (g.xx + g.zz) - g.z2 * (g.xx + g.yy);
+  return numerator * inverse_cubed_root(g.x2 + g.y2 + g.z2, c.inv_s, 1.0 / c.grad);
+}
+
+/// K = g.cof(H).g / |g|^4 of all level surfaces around.
+LAMELLA_INLINE Taylor2 K_around(const GradientAndHessian& g, const Curvatures& c) {
+  const Taylor2 straight = g.x2 * (g.yy * g.zz - g.yz * g.yz) + g.y2 * (g.xx * g.zz - g.xz * g.xz) +
+                           g.z2 * (g.xx * g.yy - g.xy * g.xy);
+  const Taylor2 crossed = g.x * g.y * (g.xz * g.yz - g.xy * g.zz) +
+                          g.x * g.z * (g.xy * g.yz - g.yy * g.xz) +
+                          g.y * g.z * (g.xy * g.xz - g.xx * g.yz);
+  return (straight + crossed + crossed) * inverse_square(g.x2 + g.y2 + g.z2, c.inv_s);
+}
+
+/// B = -P H P / |g|.
+LAMELLA_INLINE Symmetric curvature_tensor(const V8* d, const Curvatures& c) {
+  const Symmetric H = hessian<4>(d);
+  const V8* N = c.normal;
+  V8 HN[3], t[3];
+  H.apply(N, HN);
+  const V8 NHN = dot(N, HN), f = -1.0 / c.grad;
+  for (int m = 0; m < 3; m++) t[m] = HN[m] - 0.5 * NHN * N[m]; // P H P = H - N t - t N
+  return {f * (H.xx - 2.0 * N[0] * t[0]),         f * (H.yy - 2.0 * N[1] * t[1]),
+          f * (H.zz - 2.0 * N[2] * t[2]),         f * (H.xy - N[0] * t[1] - N[1] * t[0]),
+          f * (H.xz - N[0] * t[2] - N[2] * t[0]), f * (H.yz - N[1] * t[2] - N[2] * t[1])};
+}
+
+/// N.grad F.
+LAMELLA_INLINE V8 along_normal(const Taylor2& F, const Curvatures& c) {
+  const V8* N = c.normal;
+  return N[0] * F.x + N[1] * F.y + N[2] * F.z;
+}
+
+/// Eq. 58 (corrected, see docs/theory.md): Lap_s F = Lap F + K_M N.grad F - N.Hess(F).N. No
+/// property of a distance function is used.
+LAMELLA_INLINE V8 surface_laplacian(const Taylor2& F, const Curvatures& c, V8 along) {
+  const V8* N = c.normal;
+  const V8 NHN = N[0] * N[0] * F.xx + N[1] * N[1] * F.yy + N[2] * N[2] * F.zz +
+                 2.0 * (N[0] * N[1] * F.xy + N[0] * N[2] * F.xz + N[1] * N[2] * F.yz);
+  return F.xx + F.yy + F.zz - NHN + c.KM * along;
+}
+
+/// B : grad_s grad_s F = B : Hess(F) + (B : B) N.grad F.
+LAMELLA_INLINE V8 times_hessian(const Symmetric& B, const Taylor2& F, const Curvatures& c,
+                                V8 along) {
+  return B.xx * F.xx + B.yy * F.yy + B.zz * F.zz + 2.0 * (B.xy * F.xy + B.xz * F.xz + B.yz * F.yz) +
+         (c.KM * c.KM - 2.0 * c.K) * along;
+}
+
+LAMELLA_INLINE void put_surface_gradient(const Taylor2& F, const Curvatures& c, V8 along,
+                                         std::size_t first, std::size_t n, double* const* out) {
+  const V8 gradient[3] = {F.x, F.y, F.z};
+  for (int m = 0; m < 3; m++) put(out[m], first, n, gradient[m] - along * c.normal[m]);
+}
+
+LAMELLA_INLINE void put_tensor(const Symmetric& B, std::size_t first, std::size_t n,
+                               double* const* out) {
+  const V8 all[6] = {B.xx, B.yy, B.zz, B.xy, B.xz, B.yz};
+  for (int m = 0; m < 6; m++) put(out[m], first, n, all[m]);
 }
 
 void jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceArrays& out) {
@@ -264,10 +329,36 @@ void jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceArrays
     derivatives<4>(s, q, d);
     const Curvatures c = curvatures_from<4>(d);
     put_curvatures(c, first, n, out);
-    V8 gradient[3];
-    put(out.lap_KM, first, n, laplacian_of_KM(d, c, gradient));
-    if (out.grad_KM[0])
-      for (int m = 0; m < 3; m++) put(out.grad_KM[m], first, n, gradient[m]);
+    const Taylor2 KM = KM_around(gradient_and_hessian(d), c);
+    const V8 along = along_normal(KM, c);
+    put(out.lap_KM, first, n, surface_laplacian(KM, c, along));
+    if (!out.grad_KM[0]) continue;
+    put_surface_gradient(KM, c, along, first, n, out.grad_KM);
+    put_tensor(curvature_tensor(d, c), first, n, out.B);
+  }
+}
+
+void full_jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceArrays& out) {
+  for (std::size_t first = 0; first < n; first += 8) {
+    alignas(64) double q[3][8];
+    V8 d[derivative_index<4>.count];
+    gather(p, first, n, q);
+    derivatives<4>(s, q, d);
+    const Curvatures c = curvatures_from<4>(d);
+    put_curvatures(c, first, n, out);
+    const GradientAndHessian g = gradient_and_hessian(d);
+    const Symmetric B = curvature_tensor(d, c);
+    put_tensor(B, first, n, out.B);
+    const Taylor2 KM = KM_around(g, c);
+    V8 along = along_normal(KM, c);
+    put(out.lap_KM, first, n, surface_laplacian(KM, c, along));
+    put(out.B_hess_KM, first, n, times_hessian(B, KM, c, along));
+    put_surface_gradient(KM, c, along, first, n, out.grad_KM);
+    const Taylor2 K = K_around(g, c);
+    along = along_normal(K, c);
+    put(out.lap_K, first, n, surface_laplacian(K, c, along));
+    put(out.B_hess_K, first, n, times_hessian(B, K, c, along));
+    put_surface_gradient(K, c, along, first, n, out.grad_K);
   }
 }
 
@@ -362,6 +453,7 @@ const Kernels table = {LAMELLA_STRING(LAMELLA_ISA),
                        closest_points,
                        curvatures,
                        jets,
+                       full_jets,
                        taylor,
                        cubic,
                        spectral_row,

@@ -46,4 +46,19 @@ LAMELLA_INLINE Taylor2 inverse_cubed_root(const Taylor2& s, V8 inv_s, V8 inv_roo
           w1 * s.yz + w2 * s.y * s.z};
 }
 
+/// s^(-2).
+LAMELLA_INLINE Taylor2 inverse_square(const Taylor2& s, V8 inv_s) {
+  const V8 w0 = inv_s * inv_s, w1 = -2.0 * w0 * inv_s, w2 = -3.0 * w1 * inv_s;
+  return {w0,
+          w1 * s.x,
+          w1 * s.y,
+          w1 * s.z,
+          w1 * s.xx + w2 * s.x * s.x,
+          w1 * s.yy + w2 * s.y * s.y,
+          w1 * s.zz + w2 * s.z * s.z,
+          w1 * s.xy + w2 * s.x * s.y,
+          w1 * s.xz + w2 * s.x * s.z,
+          w1 * s.yz + w2 * s.y * s.z};
+}
+
 } // namespace lamella::LAMELLA_ISA

@@ -31,13 +31,45 @@ const Range positive{.low = 0, .above_low = true};
 const Range not_negative{.low = 0};
 const Range any_time{.low = 0};
 
+/// The moduli of a membrane or phase.
+template <auto section>
+std::vector<Key> moduli(std::string_view name, const std::vector<std::string_view>& cases) {
+  using M = SurfaceModuli;
+  // clang-format off
+  return {
+      {name, "bending_modulus", member<section, &M::bending_modulus>(), "energy", {.low = 1e-30},
+       cases, "bending modulus κ: of half the square of K_M less spontaneous_curvature (Helfrich)"},
+      {name, "spontaneous_curvature", member<section, &M::spontaneous_curvature>(), "1/length", any,
+       cases, "C: preferred sum of the principal curvatures, which is -2 on the unit sphere"},
+      {name, "gaussian_modulus", member<section, &M::gaussian_modulus>(), "energy", any, cases,
+       "κ_G: of the Gaussian curvature K; only a difference between phases has an effect on shapes"},
+      {name, "linear_modulus", member<section, &M::linear_modulus>(), "energy/length", any, cases,
+       "of K_M, the sum of the principal curvatures"},
+      {name, "cubic_modulus", member<section, &M::cubic_modulus>(), "energy length", any, cases,
+       "of K_M³"},
+      {name, "mixed_cubic_modulus", member<section, &M::mixed_cubic_modulus>(), "energy length",
+       any, cases, "of K_M K"},
+      {name, "quartic_modulus", member<section, &M::quartic_modulus>(), "energy length²",
+       any, cases, "of K_M⁴"},
+      {name, "mixed_quartic_modulus", member<section, &M::mixed_quartic_modulus>(),
+       "energy length²", any, cases, "of K_M² K"},
+      {name, "gaussian_square_modulus", member<section, &M::gaussian_square_modulus>(),
+       "energy length²", any, cases, "of K²"},
+  };
+  // clang-format on
+}
+
+void add(std::vector<Key>& keys, const std::vector<Key>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+}
+
 // The one description of the scene format. A new parameter is a member of Scene and an entry here:
 // section, name, access, unit, range, cases, help, default in words.
 // clang-format off
 std::vector<Key> make_keys() {
   const std::vector<std::string_view> analytic{"sphere", "oblate", "prolate", "ellipsoid", "torus"};
   const std::vector<std::string_view> one_phase{"none"}, two_phases{"cap", "caps", "frame"};
-  return {
+  std::vector<Key> keys{
       {"", "name", member<&Scene::name>(), "", any, {},
        "what the run is called", "the file's name without `.toml`"},
       {"", "title", member<&Scene::title>(), "", any, {},
@@ -86,12 +118,9 @@ std::vector<Key> make_keys() {
        {.low = 0, .high = 12}, {},
        "number of arms about the shape's axis that it seeds; 0: none, random in all directions"},
 
-      {"membrane", "bending_modulus", member<&Scene::membrane, &Membrane::bending_modulus>(),
-       "energy", {.low = 1e-30}, one_phase, "bending modulus of the Helfrich energy"},
-      {"membrane", "spontaneous_curvature",
-       member<&Scene::membrane, &Membrane::spontaneous_curvature>(), "1/length", any, one_phase,
-       "preferred sum of the principal curvatures, which is -2 on the unit sphere"},
-
+  };
+  add(keys, moduli<&Scene::membrane>("membrane", one_phase));
+  add(keys, {
       {"domains", "kind", choice<&Scene::domains, &Domains::kind>({"none", "cap", "caps", "frame"}),
        "", any, {}, "where the membrane is Ld at the start, the rest of it being Lo; none: one phase"},
       {"domains", "area_fraction", member<&Scene::domains, &Domains::area_fraction>(), "",
@@ -113,21 +142,10 @@ std::vector<Key> make_keys() {
       {"domains", "curvature_start_time", member<&Scene::curvature_start_time>(), "time", any_time,
        two_phases, "until then the spontaneous curvatures of both phases are 0"},
 
-      {"ld", "bending_modulus", member<&Scene::ld, &Phase::bending_modulus>(), "energy",
-       {.low = 1e-30}, two_phases, "bending modulus κ of the Ld phase"},
-      {"ld", "spontaneous_curvature", member<&Scene::ld, &Phase::spontaneous_curvature>(),
-       "1/length", any, two_phases, "its spontaneous curvature C: preferred sum of the principal curvatures"},
-      {"ld", "gaussian_modulus", member<&Scene::ld, &Phase::gaussian_modulus>(), "energy", any,
-       two_phases, "its Gaussian modulus κ_G; only the difference between the phases has an effect"},
-
-      {"lo", "bending_modulus", member<&Scene::lo, &Phase::bending_modulus>(), "energy",
-       {.low = 1e-30}, two_phases, "bending modulus κ of the Lo phase"},
-      {"lo", "spontaneous_curvature", member<&Scene::lo, &Phase::spontaneous_curvature>(),
-       "1/length", any, two_phases,
-       "its spontaneous curvature C: preferred sum of the principal curvatures"},
-      {"lo", "gaussian_modulus", member<&Scene::lo, &Phase::gaussian_modulus>(), "energy", any,
-       two_phases, "its Gaussian modulus κ_G; only the difference between the phases has an effect"},
-
+  });
+  add(keys, moduli<&Scene::ld>("ld", two_phases));
+  add(keys, moduli<&Scene::lo>("lo", two_phases));
+  add(keys, {
       {"line", "tension", member<&Scene::line, &Line::tension>(), "energy/length", not_negative,
        two_phases, "line tension κ_l: energy of the phase boundary per length"},
       {"line", "geodesic_modulus", member<&Scene::line, &Line::geodesic_modulus>(), "energy", any,
@@ -230,7 +248,8 @@ std::vector<Key> make_keys() {
       {"output", "frames", member<&Scene::output, &Output::frames>(), "",
        {.low = 2, .high = 100000}, {},
        "stored states, equally spaced in time, start and end included"},
-  };
+  });
+  return keys;
 }
 // clang-format on
 

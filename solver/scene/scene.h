@@ -40,13 +40,21 @@ struct Perturbation {
   bool operator==(const Perturbation&) const = default;
 };
 
-/// Helfrich energy: bending_modulus / 2 int (K_M - spontaneous_curvature)^2 dA; K_M = -2 on the
-/// unit sphere.
-struct Membrane {
-  double bending_modulus = 1;
-  double spontaneous_curvature = 0;
+/// Moduli of a membrane, or of one of its phases: bending_modulus / 2 int (K_M -
+/// spontaneous_curvature)^2 dA (Helfrich), and each of the others times the integral of its
+/// invariant (Eq. 5). K_M = -2 and K = 1 on the unit sphere.
+struct SurfaceModuli {
+  double bending_modulus = 1;         ///< energy
+  double spontaneous_curvature = 0;   ///< 1/length
+  double gaussian_modulus = 0;        ///< of K: energy
+  double linear_modulus = 0;          ///< C(1), of K_M: energy/length
+  double cubic_modulus = 0;           ///< of K_M^3: energy length
+  double mixed_cubic_modulus = 0;     ///< of K_M K: energy length
+  double quartic_modulus = 0;         ///< of K_M^4: energy length^2
+  double mixed_quartic_modulus = 0;   ///< of K_M^2 K: energy length^2
+  double gaussian_square_modulus = 0; ///< of K^2: energy length^2
 
-  bool operator==(const Membrane&) const = default;
+  bool operator==(const SurfaceModuli&) const = default;
 };
 
 /// Where the Ld domains are at the start; the rest of the membrane is Lo. none: one phase.
@@ -68,15 +76,6 @@ struct Domains {
   /// Whether caps are other than flush with the sphere.
   bool is_bulged() const { return kind == DomainsKind::caps && bulge != 0 && bulge != half_angle; }
   bool operator==(const Domains&) const = default;
-};
-
-/// Elastic moduli of one phase: Helfrich's, and gaussian_modulus int K dA.
-struct Phase {
-  double bending_modulus = 1;
-  double spontaneous_curvature = 0;
-  double gaussian_modulus = 0;
-
-  bool operator==(const Phase&) const = default;
 };
 
 /// Energy of the phase boundary, oint (tension + geodesic_modulus kg + torsion_modulus tau_g +
@@ -192,10 +191,10 @@ struct Scene {
   double half_width = 1; ///< of the box along its shortest axis
   Shape shape;
   Perturbation perturbation;
-  Membrane membrane; ///< without domains
+  SurfaceModuli membrane; ///< without domains
   Domains domains;
-  Phase ld, lo; ///< with domains
-  Line line;    ///< with domains
+  SurfaceModuli ld, lo; ///< with domains
+  Line line;            ///< with domains
   /// With domains: spontaneous curvatures are 0 until then.
   double curvature_start_time = 0;
   Stretch stretch;

@@ -54,6 +54,12 @@ public:
     if (scene_.area_difference.constraint == Constraint::ramped)
       ramp("area_difference", scene_.area_difference.ramp);
     spontaneous_curvatures();
+    if (scene_.has_phases()) {
+      quartic_moduli("ld", scene_.ld);
+      quartic_moduli("lo", scene_.lo);
+    } else {
+      quartic_moduli("membrane", scene_.membrane);
+    }
     pressure();
     if (scene_.shape.kind == ShapeKind::sphere) sphere_can_leave();
     if (scene_.has_phases()) {
@@ -204,6 +210,29 @@ private:
            "a sphere has no other area difference than 1, and what leaves it has another; allowed: "
            "\"ramped\" with start_times that begin when the volume has gone down, or \"free\", or "
            "another kind in [shape]");
+  }
+
+  /// What grows fastest with curvature is K_M^4 (quartic + mixed q + Gaussian square q^2), where
+  /// K = q K_M^2 and q may be anything up to 1/4. Cubic moduli alone are watched as the run goes.
+  void quartic_moduli(std::string_view section, const SurfaceModuli& m) const {
+    const double fourth = m.quartic_modulus, mixed = m.mixed_quartic_modulus,
+                 square = m.gaussian_square_modulus;
+    const auto at = [&](double q) { return fourth + (mixed + square * q) * q; };
+    const std::string quartic = fmt::format("{}.quartic_modulus", section),
+                      mixed_quartic = fmt::format("{}.mixed_quartic_modulus", section),
+                      gaussian_square = fmt::format("{}.gaussian_square_modulus", section);
+    if (square < 0 || (square == 0 && mixed > 0))
+      refuse({square < 0 ? gaussian_square : mixed_quartic, gaussian_square},
+             fmt::format("the energy has no lower bound: on saddles it gains from any curvature; "
+                         "allowed: a gaussian_square_modulus {}",
+                         square < 0 ? "of at least 0"
+                                    : "above 0, or a mixed_quartic_modulus up to 0"));
+    const double worst = square > 0 ? std::min(-mixed / (2 * square), 0.25) : 0.25;
+    if (at(worst) >= -rounding * std::max({std::abs(fourth), std::abs(mixed), square})) return;
+    refuse({fourth < 0 ? quartic : mixed_quartic, quartic},
+           fmt::format("the energy has no lower bound: it falls with the fourth power of "
+                       "curvature; allowed: a quartic_modulus of at least {:.6g}",
+                       fourth - at(worst)));
   }
 
   /// A wave along a straight boundary, on both sides the shape of least energy: where the Gaussian

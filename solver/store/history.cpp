@@ -27,7 +27,6 @@ std::vector<Record> read_records(const std::filesystem::path& file, std::string_
 void append(Row& row, PhaseMeasures& m) {
   row.insert(row.end(), {{"bending_Ld", &m.bending_energy_Ld, "energy"},
                          {"bending_Lo", &m.bending_energy_Lo, "energy"},
-                         {"gaussian_energy", &m.gaussian_energy, "energy"},
                          {"line_energy", &m.line_energy, "energy"},
                          {"sigma_Ld", &m.sigma_Ld, "energy/length²"},
                          {"sigma_Lo", &m.sigma_Lo, "energy/length²"},
@@ -42,27 +41,7 @@ void append(Row& row, PhaseMeasures& m) {
 }
 
 void append(Row& row, StretchMeasures& m) {
-  row.insert(
-      row.end(),
-      {{"stretch_energy", &m.energy, "energy"}, {"c_min", &m.least}, {"c_max", &m.greatest}});
-}
-
-/// The terms of the energy that not every scene has.
-std::vector<std::pair<std::string_view, std::optional<double>*>> optional_terms(Measures& m) {
-  std::vector<std::pair<std::string_view, std::optional<double>*>> terms{
-      {"pressure_energy", &m.pressure_energy},
-      {"area_difference_energy", &m.area_difference_energy},
-      {"film_energy", &m.film_energy}};
-  if (!m.phases) return terms;
-  LineTerms& line = m.phases->line_terms;
-  terms.insert(terms.end(), {{"line_tension_energy", &line.tension},
-                             {"kg_energy", &line.geodesic},
-                             {"kn_energy", &line.normal},
-                             {"tau_g_energy", &line.torsion},
-                             {"kg2_energy", &line.geodesic_square},
-                             {"kn2_energy", &line.normal_square},
-                             {"tau_g2_energy", &line.torsion_square}});
-  return terms;
+  row.insert(row.end(), {{"c_min", &m.least}, {"c_max", &m.greatest}});
 }
 
 std::string json_text(std::string_view text) {
@@ -87,8 +66,8 @@ Measures measures_with(std::span<const std::string> columns) {
   Measures measures;
   if (has("A_Ld")) measures.phases.emplace();
   if (has("c_min")) measures.stretch.emplace();
-  for (const auto& [column, term] : optional_terms(measures))
-    if (has(column)) term->emplace();
+  for (const TermInfo& term : energy_term_table)
+    if (has(term.column)) measures.terms[term.term].emplace();
   if (has("energy_rise")) measures.energy_rise.emplace(); // earlier versions wrote none
   return measures;
 }
@@ -97,7 +76,7 @@ Row row_of(Measures& m) {
   Row row{{"t", &m.time, "time"},
           {"dt", &m.dt, "time"},
           {"energy", &m.energy, "energy"},
-          {"bending_energy", &m.bending_energy, "energy"},
+          {info(Term::bending).column, &*m.terms[Term::bending], "energy"},
           {"int_KM2", &m.int_KM2},
           {"P", &m.P, "energy/length³"},
           {"sigma", &m.sigma, "energy/length²"},
@@ -113,8 +92,9 @@ Row row_of(Measures& m) {
           {"genus", &m.genus}};
   if (m.phases) append(row, *m.phases);
   if (m.stretch) append(row, *m.stretch);
-  for (const auto& [column, term] : optional_terms(m))
-    if (*term) row.push_back({column, &**term, "energy"});
+  for (const TermInfo& term : energy_term_table)
+    if (auto& value = m.terms[term.term]; value && term.term != Term::bending)
+      row.push_back({term.column, &*value, "energy"});
   if (m.energy_rise) row.push_back({"energy_rise", &*m.energy_rise});
   return row;
 }

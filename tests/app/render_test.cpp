@@ -69,12 +69,15 @@ std::vector<Measures> falling_energy(int rows, double end) {
 }
 
 /// A history with these energies of the phases, which fall too.
-std::vector<Measures> with_phases(std::vector<Measures> history, const PhaseMeasures& start) {
+std::vector<Measures> with_phases(std::vector<Measures> history, const PhaseMeasures& start,
+                                  double gaussian) {
   for (Measures& row : history) {
     const double rest = row.energy / history.front().energy;
     row.phases = start;
+    row.terms[Term::line_tension] = start.line_energy;
+    row.terms[Term::gaussian] = gaussian;
     for (double* x : {&row.phases->bending_energy_Ld, &row.phases->bending_energy_Lo,
-                      &row.phases->line_energy, &row.phases->gaussian_energy})
+                      &*row.terms[Term::line_tension], &*row.terms[Term::gaussian]})
       *x *= rest;
   }
   return history;
@@ -350,7 +353,7 @@ TEST_F(Render, plots_the_terms_of_the_energy_that_are_there) {
     const Picture plot = picture_of(energy_plot(history, Units()));
     std::vector<bool> there;
     for (const Color& color : {style::membrane.line, style::Lo.line, style::line_energy,
-                               style::gaussian_energy, style::stretch_energy})
+                               style::of_term(Term::gaussian), style::of_term(Term::stretch)})
       there.push_back(count_pixels(plot, color) > 1000);
     return there;
   };
@@ -358,26 +361,22 @@ TEST_F(Render, plots_the_terms_of_the_energy_that_are_there) {
   EXPECT_THAT(shows(plain), ElementsAre(true, false, false, false, false));
   PhaseMeasures phases;
   phases.bending_energy_Ld = 30, phases.bending_energy_Lo = 15, phases.line_energy = 25;
-  EXPECT_THAT(shows(with_phases(plain, phases)), ElementsAre(true, true, true, false, false));
-  phases.gaussian_energy = -12;
-  std::vector<Measures> all = with_phases(plain, phases);
-  for (Measures& row : all) row.stretch = {5, 1, 1};
+  EXPECT_THAT(shows(with_phases(plain, phases, 0)), ElementsAre(true, true, true, false, false));
+  std::vector<Measures> all = with_phases(plain, phases, -12);
+  for (Measures& row : all) row.terms[Term::stretch] = 5;
   EXPECT_THAT(shows(all), ElementsAre(true, true, true, true, true));
 }
 
 TEST(EnergyPlot, has_a_colour_for_each_term) {
-  std::vector<Measures> history = falling_energy(5, 1);
-  history = with_phases(
-      history,
-      {.bending_energy_Ld = 1, .bending_energy_Lo = 2, .gaussian_energy = 3, .line_energy = 4});
-  for (Measures& row : history) {
-    row.stretch = {5, 1, 1};
-    row.pressure_energy = 6;
-    row.area_difference_energy = 7;
-    row.film_energy = 8;
+  std::vector<Measures> history =
+      with_phases(falling_energy(5, 1), {.bending_energy_Ld = 1, .bending_energy_Lo = 2}, 3);
+  int off_boundary = 0;
+  for (const TermInfo& term : energy_term_table) {
+    if (term.seat != Seat::boundary) off_boundary++;
+    for (Measures& row : history) row.terms[term.term] = 5;
   }
   const std::vector<Series> series = energy_plot(history, Units()).series;
-  EXPECT_EQ(series.size(), 9u) << "all, and the whole";
+  EXPECT_EQ(int(series.size()), off_boundary + 3) << "bending of both, the boundary, the whole";
   for (std::size_t a = 0; a < series.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       EXPECT_NE(series[a].color, series[b].color) << series[a].name << " and " << series[b].name;

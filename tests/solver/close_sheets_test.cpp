@@ -50,7 +50,7 @@ std::pair<Errors, Errors> errors_of(const Grid& grid, const AreaVolume& exact, P
   for (int i = 0; i < shifts; i++) {
     const Vec3 at = shift_of(i);
     const StartSurface s(at_nodes(grid, [&](const Vec3& x) { return phi(minus(x, at)); }), grid);
-    const SurfaceIntegrals sums = integrate(s.geometry, {}, {});
+    const SurfaceIntegrals sums = integrate(s.geometry, {});
     area.push_back(sums.area() - exact.area);
     volume.push_back(sums.volume - exact.volume);
   }

@@ -25,11 +25,9 @@ TEST(Multipliers, GiveTheRatesAskedFor) {
   const StartSurface s(moved(ellipsoid({0.7, 0.4, 0.25}), {0.01, -0.02, 0.005}, 25),
                        Grid::cube(48, 1));
   const SurfaceGeometry& g = s.geometry;
-  const Helfrich bending{1.3, -2};
   std::vector<double> F(g.size());
-  for (std::size_t i = 0; i < g.size(); i++)
-    F[i] = bending.variation(g.KM()[i], g.K()[i], g.lap_KM()[i]);
-  const SurfaceIntegrals integrals = integrate(g, bending, F);
+  SurfaceEnergy(SurfaceModuli{1.3, -2}).find_forces(g, {}, {}, F);
+  const SurfaceIntegrals integrals = integrate(g, F);
   const Eigen::Vector4d asked{0.7, -1.9, 2.3, 0};
   for (const Constraint volume : {Constraint::fixed, Constraint::ramped, Constraint::free})
     for (const Constraint difference : {Constraint::fixed, Constraint::ramped, Constraint::free})
@@ -230,7 +228,8 @@ TEST(FreeVolume, ComesToRestWhereItsPressureIsThatOfTheEquilibrium) {
   const Measures& end = history.back();
   EXPECT_LE(largest_rise(history), 1e-3)
       << "of bending energy - P V"; // measured 7e-4 of 88, at rest
-  EXPECT_NEAR(end.energy, end.bending_energy - scene.volume.pressure * end.volume, 1e-9);
+  EXPECT_NEAR(end.energy, end.terms.value(Term::bending) - scene.volume.pressure * end.volume,
+              1e-9);
   EXPECT_EQ(end.P, scene.volume.pressure);
   // The volume is soft, P changes little with it: what is left falls as exp(-43 t).
   EXPECT_NEAR(end.reduced_volume, v, 1.5e-3);
@@ -270,7 +269,8 @@ TEST(Constraints, PerturbedStartsHaveTheAreaAndVolumeOfTheirShape) {
   EXPECT_NEAR(start.area / exact_area(scene.shape), 1, 1e-5);
   EXPECT_NEAR(start.volume / exact_volume(scene.shape), 1, 1e-5);
   scene.perturbation.amplitude = 0;
-  EXPECT_GT(start.bending_energy, 1.02 * Simulation(scene).measures().bending_energy);
+  EXPECT_GT(start.terms.value(Term::bending),
+            1.02 * Simulation(scene).measures().terms.value(Term::bending));
 }
 
 } // namespace

@@ -59,15 +59,8 @@ TEST_P(EachKernels, FindCurvaturesOfAnEllipsoid) {
   std::vector<double> out[8];
   for (auto& o : out) o.resize(n);
   GetParam()->jets(q.phi.view(), n, p.points(),
-                   {out[0].data(),
-                    out[1].data(),
-                    out[2].data(),
-                    out[3].data(),
-                    out[4].data(),
-                    out[5].data(),
-                    out[6].data(),
-                    out[7].data(),
-                    {}});
+                   {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(),
+                    out[5].data(), out[6].data(), out[7].data()});
   for (std::size_t i = 0; i < n; i++) {
     const double a2 = q.a * q.a, b2 = q.b * q.b, c2 = q.c * q.c;
     const double s =
@@ -91,21 +84,63 @@ TEST_P(EachKernels, AgreeWithEachOther) {
     std::vector<double> out[8];
     for (auto& o : out) o.resize(n);
     k.jets(q.phi.view(), n, p.points(),
-           {out[0].data(),
-            out[1].data(),
-            out[2].data(),
-            out[3].data(),
-            out[4].data(),
-            out[5].data(),
-            out[6].data(),
-            out[7].data(),
-            {}});
+           {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(),
+            out[5].data(), out[6].data(), out[7].data()});
     return out[7];
   };
   const std::vector<double> mine = lap_KM(*GetParam()),
                             theirs = lap_KM(*available_kernels().front());
   for (std::size_t i = 0; i < n; i++)
     EXPECT_NEAR(mine[i], theirs[i], 1e-8 * std::abs(theirs[i]) + 1e-8);
+}
+
+/// B has the curvatures that are told beside it, gradients lie along the surface. (Second
+/// derivatives are tested by what they are for, forces against differences of energies.)
+TEST_P(EachKernels, FindWholeJets) {
+  const Quadric q;
+  const Cloud p = on_quadric(1);
+  const std::size_t n = p.x.size();
+  std::vector<std::vector<double>> out(30, std::vector<double>(n));
+  const auto arrays = [&](std::size_t i) {
+    SurfaceArrays a{.phi = out[i].data(),
+                    .nx = out[i + 1].data(),
+                    .ny = out[i + 2].data(),
+                    .nz = out[i + 3].data(),
+                    .grad = out[i + 4].data(),
+                    .KM = out[i + 5].data(),
+                    .K = out[i + 6].data(),
+                    .lap_KM = out[i + 7].data()};
+    return a;
+  };
+  SurfaceArrays full = arrays(0);
+  for (int d = 0; d < 3; d++) {
+    full.grad_KM[d] = out[8 + d].data();
+    full.grad_K[d] = out[11 + d].data();
+  }
+  for (int c = 0; c < 6; c++) full.B[c] = out[14 + c].data();
+  full.B_hess_KM = out[20].data();
+  full.lap_K = out[21].data();
+  full.B_hess_K = out[22].data();
+  GetParam()->full_jets(q.phi.view(), n, p.points(), full);
+  std::vector<double> lap_KM = out[7];
+  GetParam()->jets(q.phi.view(), n, p.points(), arrays(0));
+  for (std::size_t i = 0; i < n; i++) {
+    EXPECT_NEAR(lap_KM[i], out[7][i], 1e-9 * std::abs(lap_KM[i]) + 1e-9);
+    const double* B[6];
+    for (int c = 0; c < 6; c++) B[c] = &out[14 + c][i];
+    EXPECT_NEAR(*B[0] + *B[1] + *B[2], full.KM[i], 1e-10);
+    double square = 0;
+    for (int c = 0; c < 6; c++) square += (c < 3 ? 1 : 2) * *B[c] * *B[c];
+    EXPECT_NEAR(square, full.KM[i] * full.KM[i] - 2 * full.K[i], 1e-9);
+    double along_KM = 0, along_K = 0;
+    const double N[3] = {full.nx[i], full.ny[i], full.nz[i]};
+    for (int d = 0; d < 3; d++) {
+      along_KM += N[d] * full.grad_KM[d][i];
+      along_K += N[d] * full.grad_K[d][i];
+    }
+    EXPECT_NEAR(along_KM, 0, 1e-9);
+    EXPECT_NEAR(along_K, 0, 1e-9);
+  }
 }
 
 TEST_P(EachKernels, FindNearestPoints) {

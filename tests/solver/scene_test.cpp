@@ -269,7 +269,7 @@ TEST(Overrides, OfTheDomainsDropTheModuliOfTheOldPhases) {
   const Scene two = parse_scene("[shape]\nkind = \"sphere\"\n[membrane]\nbending_modulus = 2\n",
                                 "scene.toml", caps);
   EXPECT_EQ(two.domains.directions, (std::vector<Vec3>{{0, 0, 1}, {1, 0, 0}}));
-  EXPECT_EQ(two.membrane, Membrane{});
+  EXPECT_EQ(two.membrane, SurfaceModuli{});
 }
 
 TEST(Overrides, AreBlamedForTheRuleTheyBreak) {

@@ -1,5 +1,5 @@
 // The profiles that a sharp boundary is smeared with, and the moduli across it.
-#include "energy/phase_moduli.h"
+#include "energy/coefficient.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -94,44 +94,41 @@ TEST(SmearedStep, LeavesEnergiesAsASharpBoundaryHasThem) {
 // -----------------------------------------------------------------------------------------------
 // moduli
 
-const Phase soft{1, -3, 3.6}, stiff{5, 0.5, -1};
-const PhaseModuli moduli(soft, stiff, accurate, monotonic, of_moments);
+const StepProfiles profiles{accurate, of_moments, monotonic};
+const Coefficient kappa{1, 5, Profile::compliance}, C{-3, 0.5, Profile::accurate},
+    kappa_G{3.6, -1, Profile::moments}, quartic{0, 2, Profile::monotonic};
 
-TEST(PhaseModuli, AreThoseOfThePhasesAwayFromTheBoundary) {
-  for (const double x : {-1.001, 1.001}) {
-    const PhaseModuli::Value v = moduli.at(x * half_width);
-    const Phase& phase = x < 0 ? soft : stiff;
-    EXPECT_DOUBLE_EQ(v.kappa.f, phase.bending_modulus);
-    EXPECT_DOUBLE_EQ(v.C.f, phase.spontaneous_curvature);
-    EXPECT_DOUBLE_EQ(v.kappa_G.f, phase.gaussian_modulus);
-    for (const auto& c : {v.kappa, v.C, v.kappa_G}) {
-      EXPECT_EQ(c.d1, 0);
-      EXPECT_EQ(c.d2, 0);
+Univariate course_of(const Coefficient& coefficient, double x) {
+  return coefficient.at(profiles.at(x));
+}
+
+TEST(Coefficient, IsThatOfThePhasesAwayFromTheBoundary) {
+  for (const Coefficient& c : {kappa, C, kappa_G, quartic})
+    for (const double x : {-1.001, 1.001}) {
+      const Univariate at = course_of(c, x * half_width);
+      EXPECT_NEAR(at.f, x < 0 ? c.ld : c.lo, 1e-14);
+      EXPECT_EQ(at.d1, 0);
+      EXPECT_EQ(at.d2, 0);
+      EXPECT_TRUE(c.differs());
     }
-  }
-  EXPECT_TRUE(moduli.differ());
-  EXPECT_FALSE(PhaseModuli(soft, soft, accurate, monotonic, of_moments).differ());
+  EXPECT_FALSE((Coefficient{2, 2, Profile::compliance}.differs()));
 }
 
-TEST(PhaseModuli, KnowTheirDerivatives) {
+TEST(Coefficient, KnowsItsDerivatives) {
   const double e = 1e-5;
-  for (double x = -0.95 * half_width; x < half_width; x += 0.1 * half_width) {
-    const PhaseModuli::Value v = moduli.at(x), before = moduli.at(x - e), after = moduli.at(x + e);
-    auto expect = [&](auto course) {
-      const auto& [f, d1, d2] = v.*course;
-      EXPECT_NEAR(d1, ((after.*course).f - (before.*course).f) / (2 * e), 1e-4);
-      EXPECT_NEAR(d2, ((after.*course).d1 - (before.*course).d1) / (2 * e), 1e-2);
-    };
-    expect(&PhaseModuli::Value::kappa);
-    expect(&PhaseModuli::Value::C);
-    expect(&PhaseModuli::Value::kappa_G);
-  }
+  for (const Coefficient& c : {kappa, C, kappa_G, quartic})
+    for (double x = -0.95 * half_width; x < half_width; x += 0.1 * half_width) {
+      const Univariate at = course_of(c, x), before = course_of(c, x - e),
+                       after = course_of(c, x + e);
+      EXPECT_NEAR(at.d1, (after.f - before.f) / (2 * e), 1e-4);
+      EXPECT_NEAR(at.d2, (after.d1 - before.d1) / (2 * e), 1e-2);
+    }
 }
 
-TEST(PhaseModuli, BendLikeSpringsInARow) {
+TEST(Coefficient, BendsLikeSpringsInARow) {
   for (double x = -half_width; x < half_width; x += 0.1 * half_width) {
-    const double H = monotonic.at(x).step, kappa = moduli.at(x).kappa.f;
-    EXPECT_NEAR(1 / kappa, (1 - H) / soft.bending_modulus + H / stiff.bending_modulus, 1e-14);
+    const double H = monotonic.at(x).step;
+    EXPECT_NEAR(1 / course_of(kappa, x).f, (1 - H) / kappa.ld + H / kappa.lo, 1e-14);
   }
 }
 

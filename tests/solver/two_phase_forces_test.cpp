@@ -56,10 +56,11 @@ Scene generic_scene() {
 struct State {
   LevelSet phi;
   NarrowBand band;
-  SurfaceGeometry surface{QuadratureKernel::symmetric(), true};
+  SurfaceGeometry surface{QuadratureKernel::symmetric()};
   Components vesicles;
   Phases phases;
   PhaseIntegrals integrals;
+  std::optional<SurfaceEnergy> energy_terms;
   std::vector<double> variation;
 
   State(const Scene& scene, Fourier& fourier)
@@ -77,7 +78,7 @@ struct State {
     phi.update_nodal();
     band.update(phi);
     surface.sample(phi, band);
-    surface.jets(phi, band);
+    surface.jets(phi, band, Derivatives::gradient);
   }
 
   void measure() {
@@ -90,14 +91,19 @@ struct State {
     phases.follow(phi, band);
     phases.sample(band, surface, vesicles);
     variation.resize(surface.size());
-    phases.find_forces(phi, surface, 1, variation);
-    integrals = phases.integrate(surface, variation, {});
+    energy_terms = phases.surface_energy(1);
+    phases.find_forces(phi, surface, *energy_terms, variation);
+    integrals = phases.integrate(surface, {});
   }
 
-  double bending() const { return integrals.bending_Ld + integrals.bending_Lo; }
-  double energy() const {
-    return bending() + phases.gaussian_energy(integrals) + phases.line_energy(integrals);
+  EnergyTerms energies() const {
+    EnergyTerms terms;
+    energy_terms->find_energies(surface, terms);
+    phases.find_line_energies(terms);
+    return terms;
   }
+  double bending() const { return energies().value(Term::bending); }
+  double energy() const { return energies().sum(); }
 };
 
 void add(LevelSet& to, double factor, const LevelSet& change) {

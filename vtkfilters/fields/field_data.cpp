@@ -1,6 +1,9 @@
 #include "fields/field_data.h"
 
 #include "fields/start_image.h"
+#include "scene/keys.h"
+
+#include <fmt/format.h>
 
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
@@ -15,46 +18,32 @@ bool has_one_phase(const Scene& scene) { return !scene.has_phases(); }
 bool has_stretch(const Scene& scene) { return scene.stretch.modulus > 0; }
 bool has_films(const Scene& scene) { return scene.contact.disjoining_pressure > 0; }
 
-/// A parameter that forces depend on: its path, and in which scenes.
-struct Parameter {
-  const char* path;
-  bool (*acts)(const Scene&);
-  double& (*of)(Scene&);
+/// Parameters that forces depend on, by how their paths begin, and in which scenes they act.
+struct Parameters {
+  std::string_view begin;
+  bool (*act)(const Scene&);
+};
+constexpr Parameters parameters[] = {
+    {"membrane.", has_one_phase},
+    {"ld.", has_phases},
+    {"lo.", has_phases},
+    {"line.", has_phases},
+    {"domains.curvature_start_time", has_phases},
+    {"stretch.modulus", has_stretch},
+    {"contact.disjoining_", has_films},
 };
 
-constexpr Parameter parameters[] = {
-    {"membrane.bending_modulus", has_one_phase,
-     [](Scene& s) -> double& { return s.membrane.bending_modulus; }},
-    {"membrane.spontaneous_curvature", has_one_phase,
-     [](Scene& s) -> double& { return s.membrane.spontaneous_curvature; }},
-    {"ld.bending_modulus", has_phases, [](Scene& s) -> double& { return s.ld.bending_modulus; }},
-    {"ld.spontaneous_curvature", has_phases,
-     [](Scene& s) -> double& { return s.ld.spontaneous_curvature; }},
-    {"ld.gaussian_modulus", has_phases, [](Scene& s) -> double& { return s.ld.gaussian_modulus; }},
-    {"lo.bending_modulus", has_phases, [](Scene& s) -> double& { return s.lo.bending_modulus; }},
-    {"lo.spontaneous_curvature", has_phases,
-     [](Scene& s) -> double& { return s.lo.spontaneous_curvature; }},
-    {"lo.gaussian_modulus", has_phases, [](Scene& s) -> double& { return s.lo.gaussian_modulus; }},
-    {"line.tension", has_phases, [](Scene& s) -> double& { return s.line.tension; }},
-    {"line.geodesic_modulus", has_phases,
-     [](Scene& s) -> double& { return s.line.geodesic_modulus; }},
-    {"line.torsion_modulus", has_phases,
-     [](Scene& s) -> double& { return s.line.torsion_modulus; }},
-    {"line.normal_modulus", has_phases, [](Scene& s) -> double& { return s.line.normal_modulus; }},
-    {"line.geodesic_square_modulus", has_phases,
-     [](Scene& s) -> double& { return s.line.geodesic_square_modulus; }},
-    {"line.torsion_square_modulus", has_phases,
-     [](Scene& s) -> double& { return s.line.torsion_square_modulus; }},
-    {"line.normal_square_modulus", has_phases,
-     [](Scene& s) -> double& { return s.line.normal_square_modulus; }},
-    {"domains.curvature_start_time", has_phases,
-     [](Scene& s) -> double& { return s.curvature_start_time; }},
-    {"stretch.modulus", has_stretch, [](Scene& s) -> double& { return s.stretch.modulus; }},
-    {"contact.disjoining_pressure", has_films,
-     [](Scene& s) -> double& { return s.contact.disjoining_pressure; }},
-    {"contact.disjoining_range", has_films,
-     [](Scene& s) -> double& { return s.contact.disjoining_range; }},
-};
+/// Calls with the path, the parameter of the scene, and whether it acts there.
+template <class Action>
+void for_each_parameter(Scene& scene, Action&& action) {
+  for (const Key& key : scene_keys()) {
+    const std::string path = fmt::format("{}.{}", key.section, key.name);
+    for (const Parameters& some : parameters)
+      if (path.starts_with(some.begin))
+        if (const auto* number = std::get_if<Member<double>>(&key.access))
+          action(path, (*number)(scene), some.act(scene));
+  }
+}
 
 } // namespace
 
@@ -71,25 +60,19 @@ void set_field_value(vtkDataObject& data, const std::string& name, double value)
   data.GetFieldData()->AddArray(array);
 }
 
-Elasticity elasticity_of(vtkDataObject& data, const Helfrich& otherwise) {
-  const auto of = [&](const std::string& section) -> Helfrich {
-    return {field_value(data, section + ".bending_modulus").value_or(otherwise.bending_modulus),
-            field_value(data, section + ".spontaneous_curvature")
-                .value_or(otherwise.spontaneous_curvature)};
-  };
-  return {of("membrane"), of("ld"), of("lo")};
-}
-
 void set_forces(vtkDataObject& data, const Scene& scene) {
   Scene copy = scene;
-  for (const Parameter& parameter : parameters)
-    if (parameter.acts(scene)) set_field_value(data, parameter.path, parameter.of(copy));
+  for_each_parameter(copy, [&](const std::string& path, double value, bool acts) {
+    if (acts) set_field_value(data, path, value);
+  });
 }
 
-Scene forces_of(vtkDataObject& data, const Frame& frame) {
+Scene forces_of(vtkDataObject& data, const Frame& frame, const SurfaceModuli& otherwise) {
   Scene scene = with_start({}, frame.grid, !frame.psi.empty());
-  for (const Parameter& parameter : parameters)
-    if (const auto value = field_value(data, parameter.path)) parameter.of(scene) = *value;
+  scene.membrane = scene.ld = scene.lo = otherwise;
+  for_each_parameter(scene, [&](const std::string& path, double& value, bool) {
+    value = field_value(data, path).value_or(value);
+  });
   return scene;
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include "energy/helfrich.h"
 #include "fields/velocity.h"
 #include "scene/scene.h"
 #include "store/frame.h"
@@ -16,20 +15,11 @@ namespace lamella {
 std::optional<double> field_value(vtkDataObject& data, const std::string& name);
 void set_field_value(vtkDataObject& data, const std::string& name, double value);
 
-/// The bending energy of a membrane, phase by phase.
-struct Elasticity {
-  Helfrich membrane, ld, lo; ///< of one with a single phase; of those of one with two
-
-  const Helfrich& at(double psi) const { return psi < 0 ? ld : lo; }
-};
-
-/// What the field data says; the given one where it says nothing.
-Elasticity elasticity_of(vtkDataObject& data, const Helfrich& otherwise);
-
 /// Writes the parameters of a scene that its forces depend on, those that act; and reads them
-/// again, into a scene that has the grid and phases of a frame.
+/// again, into a scene that has the grid and phases of a frame, with the given moduli where the
+/// field data says nothing.
 void set_forces(vtkDataObject& data, const Scene& scene);
-Scene forces_of(vtkDataObject& data, const Frame& frame);
+Scene forces_of(vtkDataObject& data, const Frame& frame, const SurfaceModuli& otherwise);
 
 /// Multipliers in the normal velocity of a membrane; nothing where the field data does not have all
 /// of them.

@@ -1,7 +1,9 @@
 #include "fields/measure.h"
 
 #include "dynamics/surface_integrals.h"
+#include "energy/helfrich.h"
 #include "energy/smeared_step.h"
+#include "energy/surface_energy.h"
 #include "fields/image.h"
 #include "fields/spline_geometry.h"
 #include "geometry/phase_boundary.h"
@@ -32,11 +34,11 @@ struct Sampled {
   NarrowBand band;
   SurfaceGeometry surface;
 
-  explicit Sampled(const Frame& frame)
+  explicit Sampled(const Frame& frame, Derivatives wanted = Derivatives::laplacian)
       : phi(fitted(frame.grid, frame.phi)), band(frame.grid, band_half_width) {
     band.update(phi);
     surface.sample(phi, band);
-    surface.jets(phi, band);
+    surface.jets(phi, band, wanted);
   }
 };
 
@@ -63,13 +65,6 @@ double thinnest_neck(const LevelSet& phi) {
   return neck == points.end() ? none : neck->radius;
 }
 
-std::vector<double> variation(const SurfaceGeometry& surface, const Helfrich& bending) {
-  std::vector<double> F(surface.size());
-  for (std::size_t i = 0; i < F.size(); ++i)
-    F[i] = bending.variation(surface.KM()[i], surface.K()[i], surface.lap_KM()[i]);
-  return F;
-}
-
 /// P and sigma for which volume and area are at rest: int v dA = int K_M v dA = 0.
 void set_multipliers(ShapeMeasures& m, const SurfaceIntegrals& integrals) {
   const Eigen::Vector2d solution =
@@ -87,7 +82,7 @@ double share_of_Lo(const SmearedStep& step, const Taylor& psi, const Vec3& norma
 }
 
 ShapeMeasures::Phases measure_phases(const Frame& frame, const Sampled& membrane,
-                                     const Elasticity& elasticity) {
+                                     const Scene& forces) {
   const LevelSet psi = fitted(frame.grid, frame.psi);
   const SurfaceGeometry& surface = membrane.surface;
   const std::vector<Taylor> around = taylor(psi, places(surface.points(), surface.size()));
@@ -98,8 +93,8 @@ ShapeMeasures::Phases measure_phases(const Frame& frame, const Sampled& membrane
                  KM = surface.KM()[i];
     m.area_Ld += w * (1 - Lo);
     m.area_Lo += w * Lo;
-    m.bending_energy_Ld += w * (1 - Lo) * elasticity.ld.density(KM);
-    m.bending_energy_Lo += w * Lo * elasticity.lo.density(KM);
+    m.bending_energy_Ld += w * (1 - Lo) * bending_density(forces.ld, KM);
+    m.bending_energy_Lo += w * Lo * bending_density(forces.lo, KM);
   }
   PhaseBoundary boundary;
   boundary.trace(membrane.phi, psi, membrane.band);
@@ -124,11 +119,13 @@ std::vector<Size> sizes_of(const Frame& frame, const std::vector<int>& nearest, 
   return sizes;
 }
 
-ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity) {
-  const Sampled membrane(frame);
+ShapeMeasures measure(const Frame& frame, const Scene& forces) {
+  SurfaceEnergy energy(forces.membrane);
+  const Sampled membrane(frame, energy.needs());
   const SurfaceGeometry& surface = membrane.surface;
-  const SurfaceIntegrals integrals =
-      integrate(surface, elasticity.membrane, variation(surface, elasticity.membrane));
+  std::vector<double> variation(surface.size());
+  energy.find_forces(surface, {}, {}, variation);
+  const SurfaceIntegrals integrals = integrate(surface, variation);
   if (!(integrals.area() > 0))
     throw InputError("the membrane is too small for the grid to be measured");
   const double pi = std::numbers::pi, radius = std::sqrt(integrals.area() / (4 * pi));
@@ -143,11 +140,13 @@ ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity) {
   m.genus = topology.genus;
   m.neck_radius = thinnest_neck(membrane.phi);
   if (frame.psi.empty()) {
-    m.bending_energy = integrals.energy;
+    EnergyTerms terms;
+    energy.find_energies(surface, terms);
+    m.bending_energy = terms.value(Term::bending);
     set_multipliers(m, integrals);
     return m;
   }
-  m.phases = measure_phases(frame, membrane, elasticity);
+  m.phases = measure_phases(frame, membrane, forces);
   m.bending_energy = m.phases->bending_energy_Ld + m.phases->bending_energy_Lo;
   m.P = m.sigma = none;
   return m;

@@ -33,6 +33,6 @@ struct Size {
 /// cavity has a negative volume.
 std::vector<Size> sizes_of(const Frame& frame, const std::vector<int>& nearest, int sheets);
 
-ShapeMeasures measure(const Frame& frame, const Elasticity& elasticity);
+ShapeMeasures measure(const Frame& frame, const Scene& forces);
 
 } // namespace lamella

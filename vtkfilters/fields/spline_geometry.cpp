@@ -15,15 +15,14 @@ constexpr double longest_step = 0.5; // spacings
 /// A chunk of points and what the kernels say of them.
 struct Samples {
   std::size_t count;
-  std::array<double, chunk> x, y, z, phi, nx, ny, nz, grad, KM, K, lap_KM;
+  std::array<double, chunk> x, y, z, phi, nx, ny, nz, grad, KM, K;
 
   ConstPoints points() const { return {x.data(), y.data(), z.data()}; }
   SurfaceArrays arrays() {
-    return {phi.data(), nx.data(), ny.data(),     nz.data(), grad.data(),
-            KM.data(),  K.data(),  lap_KM.data(), {}};
+    return {phi.data(), nx.data(), ny.data(), nz.data(), grad.data(), KM.data(), K.data(), nullptr};
   }
-  void evaluate(const SplineView& spline, bool with_lap_KM) {
-    (with_lap_KM ? kernels().jets : kernels().curvatures)(spline, count, points(), arrays());
+  void evaluate(const SplineView& spline) {
+    kernels().curvatures(spline, count, points(), arrays());
   }
   /// Not further than `longest`, and not at all where phi is flat.
   void take_newton_step(double longest) {
@@ -54,7 +53,6 @@ void put(const Samples& s, std::size_t begin, vtkPoints& points, SplineGeometry&
     normal[0] = float(s.nx[i]), normal[1] = float(s.ny[i]), normal[2] = float(s.nz[i]);
     geometry.KM[begin + i] = s.KM[i];
     geometry.K[begin + i] = s.K[i];
-    if (!geometry.lap_KM.empty()) geometry.lap_KM[begin + i] = s.lap_KM[i];
   }
 }
 
@@ -68,17 +66,17 @@ LevelSet fitted(const Grid& grid, std::span<const double> values) {
   return f;
 }
 
-SplineGeometry move_onto(const LevelSet& phi, vtkPoints& points, bool with_lap_KM) {
+SplineGeometry move_onto(const LevelSet& phi, vtkPoints& points) {
   const SplineView spline = phi.view();
   const std::size_t n = points.GetNumberOfPoints();
-  SplineGeometry geometry{std::vector<float>(3 * n), std::vector<double>(n), std::vector<double>(n),
-                          std::vector<double>(with_lap_KM ? n : 0)};
+  SplineGeometry geometry{std::vector<float>(3 * n), std::vector<double>(n),
+                          std::vector<double>(n)};
   parallel_for(n, chunk, [&](std::size_t begin, std::size_t end) {
     Samples samples;
     take(points, begin, end, samples);
-    samples.evaluate(spline, false);
+    samples.evaluate(spline);
     samples.take_newton_step(longest_step * phi.grid().spacing);
-    samples.evaluate(spline, with_lap_KM);
+    samples.evaluate(spline);
     put(samples, begin, points, geometry);
   });
   return geometry;
@@ -90,7 +88,7 @@ std::vector<double> slopes_at(const LevelSet& phi, vtkPoints& points) {
   parallel_for(slopes.size(), chunk, [&](std::size_t begin, std::size_t end) {
     Samples samples;
     take(points, begin, end, samples);
-    samples.evaluate(spline, false);
+    samples.evaluate(spline);
     std::copy_n(samples.grad.begin(), samples.count, slopes.begin() + std::ptrdiff_t(begin));
   });
   return slopes;

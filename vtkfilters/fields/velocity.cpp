@@ -2,7 +2,7 @@
 
 #include "dynamics/phases.h"
 #include "energy/film.h"
-#include "fields/spline_geometry.h"
+#include "energy/surface_energy.h"
 #include "levelset/extension.h"
 #include "levelset/level_set.h"
 #include "levelset/taylor.h"
@@ -15,25 +15,36 @@ namespace {
 constexpr double band_half_width = 4.2; // spacings, as the solver's own
 constexpr int sweeps = 60;              // of the spline through the speed: almost exact
 
-/// The variation F of the energy by bending (a normal displacement u changes it by int F u dA), at
-/// a point where q is the share of Ld.
-double by_bending(const Scene& scene, double q, double KM, double K, double lap_KM) {
-  const auto of = [&](double modulus, double curvature) {
-    return Helfrich{modulus, curvature}.variation(KM, K, lap_KM);
+/// The variation F (a normal displacement u changes the energy by int F u dA) as it is well off the
+/// phase boundary, where q is the share of Ld.
+std::vector<double> bulk_variation(const Scene& scene, const SurfaceGeometry& surface,
+                                   std::span<const double> share_Ld) {
+  const auto of = [&](const SurfaceModuli& moduli) {
+    std::vector<double> F(surface.size());
+    SurfaceEnergy(moduli).find_forces(surface, {}, {}, F);
+    return F;
   };
-  if (!scene.has_phases())
-    return of(scene.membrane.bending_modulus, scene.membrane.spontaneous_curvature);
-  return q * of(scene.ld.bending_modulus, scene.ld.spontaneous_curvature) +
-         (1 - q) * of(scene.lo.bending_modulus, scene.lo.spontaneous_curvature);
+  if (!scene.has_phases()) return of(scene.membrane);
+  std::vector<double> F = of(scene.ld);
+  const std::vector<double> F_Lo = of(scene.lo);
+  for (std::size_t i = 0; i < F.size(); ++i)
+    F[i] = share_Ld[i] * F[i] + (1 - share_Ld[i]) * F_Lo[i];
+  return F;
 }
 
-bool has_bending_only(const Scene& scene) {
+Derivatives derivatives_for(const Scene& scene) {
+  if (!scene.has_phases()) return SurfaceEnergy(scene.membrane).needs();
+  return std::max(
+      {Derivatives::gradient, SurfaceEnergy(scene.ld).needs(), SurfaceEnergy(scene.lo).needs()});
+}
+
+bool has_surface_energy_only(const Scene& scene) {
   return !scene.has_phases() && scene.stretch.modulus == 0 &&
          scene.contact.disjoining_pressure == 0;
 }
 
-/// Values at the samples of a membrane: the variation by all forces but bending, and the share of
-/// Ld.
+/// Values at the samples of a membrane: the variation by all forces but those of bulk_variation(),
+/// and the share of Ld.
 struct Forces {
   std::vector<double> other, share_Ld;
 };
@@ -47,11 +58,11 @@ Forces forces_on(const Frame& frame, const LevelSet& phi, const NarrowBand& band
     const Components together(frame.grid, false);
     phases.locate(phi, band, together);
     phases.sample(band, surface, together);
-    phases.find_forces(phi, surface, frame.time, f.other);
+    SurfaceEnergy energy = phases.surface_energy(frame.time);
+    phases.find_forces(phi, surface, energy, f.other);
     f.share_Ld.assign(phases.share().begin(), phases.share().end());
-    for (std::size_t i = 0; i < surface.size(); ++i)
-      f.other[i] -=
-          by_bending(scene, f.share_Ld[i], surface.KM()[i], surface.K()[i], surface.lap_KM()[i]);
+    const std::vector<double> bulk = bulk_variation(scene, surface, f.share_Ld);
+    for (std::size_t i = 0; i < surface.size(); ++i) f.other[i] -= bulk[i];
   }
   if (scene.stretch.modulus > 0) {
     StretchField stretch(scene.stretch.modulus, frame.grid, frame.c, fourier);
@@ -101,15 +112,14 @@ private:
 Forces forces_at(const Frame& frame, const LevelSet& phi, const Scene& scene, vtkPoints& points) {
   const std::size_t count = points.GetNumberOfPoints();
   Forces f{std::vector<double>(count, 0), std::vector<double>(count, 0)};
-  if (has_bending_only(scene)) return f;
+  if (has_surface_energy_only(scene)) return f;
   NarrowBand band(frame.grid, band_half_width);
   const bool phases = scene.has_phases();
-  SurfaceGeometry surface(phases ? QuadratureKernel::symmetric() : QuadratureKernel::outside(),
-                          phases);
+  SurfaceGeometry surface(phases ? QuadratureKernel::symmetric() : QuadratureKernel::outside());
   for (int pass = 0; pass < 2; ++pass) { // nearest points go by one Newton step at a time
     band.update(phi);
     surface.sample(phi, band);
-    surface.jets(phi, band);
+    surface.jets(phi, band, derivatives_for(scene));
   }
   const Forces samples = forces_on(frame, phi, band, surface, scene);
   std::vector<Eigen::Vector3d> places(count);
@@ -122,18 +132,21 @@ Forces forces_at(const Frame& frame, const LevelSet& phi, const Scene& scene, vt
 
 } // namespace
 
-/// Eq. 80, with a tension for each phase. What changes most along the membrane, bending, is that at
-/// the points themselves.
+/// Eq. 80, with a tension for each phase. What changes most along the membrane, the forces of its
+/// curvatures, is that at the points themselves.
 std::vector<double> normal_velocity(const Frame& frame, const LevelSet& phi, const Scene& scene,
-                                    const KnownMultipliers& m, vtkPoints& points,
-                                    const SplineGeometry& geometry) {
+                                    const KnownMultipliers& m, vtkPoints& points) {
   const auto [other, share_Ld] = forces_at(frame, phi, scene, points);
+  std::vector<Vec3> places(points.GetNumberOfPoints());
+  for (std::size_t n = 0; n < places.size(); ++n) points.GetPoint(vtkIdType(n), places[n].data());
+  SurfaceGeometry surface;
+  surface.jets_at(phi, places, derivatives_for(scene));
+  const std::vector<double> bulk = bulk_variation(scene, surface, share_Ld);
   std::vector<double> v(other.size());
   for (std::size_t i = 0; i < v.size(); ++i) {
-    const double KM = geometry.KM[i], K = geometry.K[i], q = share_Ld[i],
-                 sigma = scene.has_phases() ? m.sigma + (m.sigma_Ld - m.sigma) * q : m.sigma;
-    v[i] = m.P + sigma * KM + m.K_multiplier * K - other[i] -
-           by_bending(scene, q, KM, K, geometry.lap_KM[i]);
+    const double sigma =
+        scene.has_phases() ? m.sigma + (m.sigma_Ld - m.sigma) * share_Ld[i] : m.sigma;
+    v[i] = m.P + sigma * surface.KM()[i] + m.K_multiplier * surface.K()[i] - other[i] - bulk[i];
   }
   return v;
 }

@@ -1,5 +1,4 @@
 #pragma once
-#include "fields/spline_geometry.h"
 #include "levelset/level_set.h"
 #include "scene/scene.h"
 #include "store/frame.h"
@@ -17,10 +16,9 @@ struct KnownMultipliers {
   double sigma_Ld = 0; ///< with phases
 };
 
-/// Normal velocity of the membrane of a frame at points on it, with their geometry (Lap_s K_M too),
-/// by the forces of the scene: bending, the phase boundary, local stretch, films.
+/// Normal velocity of the membrane of a frame at points on it, by the forces of the scene: its
+/// curvatures, the phase boundary, local stretch, films.
 std::vector<double> normal_velocity(const Frame& frame, const LevelSet& phi, const Scene& scene,
-                                    const KnownMultipliers& multipliers, vtkPoints& points,
-                                    const SplineGeometry& geometry);
+                                    const KnownMultipliers& multipliers, vtkPoints& points);
 
 } // namespace lamella

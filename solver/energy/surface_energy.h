@@ -1,0 +1,80 @@
+#pragma once
+#include "energy/surface_term.h"
+#include "geometry/surface_geometry.h"
+#include "scene/scene.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace lamella {
+
+/// The part of the Hamiltonian that is integrals over the membrane of functions of its curvatures
+/// (Eq. 5): the list of terms that a scene needs, and the one place where their forces and energies
+/// are put together, with one phase and with two.
+class SurfaceEnergy {
+public:
+  /// The membrane where the phases meet: samples within a few spacings of the boundary.
+  struct Strip {
+    std::vector<int> sample;
+    std::vector<SurfaceJet<double>> psi; ///< distance from the boundary, < 0 in Ld
+  };
+
+  /// Nothing but the terms of a membrane of one phase.
+  explicit SurfaceEnergy(const SurfaceModuli& membrane);
+  /// Of two, with the profiles that moduli follow across the boundary. `geodesic_modulus`: of the
+  /// boundary, which by Gauss and Bonnet is, but for a constant, a Gaussian modulus of Ld.
+  SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo, double geodesic_modulus,
+                const StepProfiles& profiles);
+
+  /// One more.
+  void add(std::shared_ptr<const SurfaceTerm> term);
+
+  /// What the samples must be known by.
+  Derivatives needs() const;
+  /// Whether the phases have different moduli.
+  bool differs() const;
+
+  /// The variation F at the samples: a displacement u along N changes the energy by int F u dA.
+  /// `is_Ld`: of samples off the strip; empty: one phase. Energies are then those of these samples.
+  void find_forces(const SurfaceGeometry& surface, std::span<const char> is_Ld, const Strip& strip,
+                   std::span<double> variation);
+
+  /// How strongly short waves are resisted: the energy of a normal displacement by a wave of wave
+  /// number k is k^4 / 2 times its square times a number between these.
+  struct Stiffness {
+    double least = 0, most = 0;
+    std::size_t softest = 0; ///< the sample where it is least
+  };
+  /// Over the samples, `is_Ld` as above.
+  Stiffness stiffness(const SurfaceGeometry& surface, std::span<const char> is_Ld) const;
+
+  /// Energy density along a way across the phase boundary, where the distance from it is psi.
+  Univariate across(double psi, double KM, double K) const;
+
+  /// Energy density of a membrane of one phase at a point.
+  double density(double KM, double K) const;
+
+  /// Sets the energies of the terms; with phases also the bending energy of Ld, whose share of the
+  /// samples is given.
+  void find_energies(const SurfaceGeometry& surface, EnergyTerms& terms) const;
+  double bending_Ld(const SurfaceGeometry& surface, std::span<const double> share) const;
+
+private:
+  template <class Monomial>
+  void add_if(const Coefficient& modulus);
+  /// No partial derivative is more than affine in K_M where coefficients do not vary.
+  bool is_affine() const;
+  template <class N, class Where>
+  void find_at(const SurfacePoint<N>& p, const Where& at, std::span<double> variation);
+  template <class N>
+  void find_bulk(const SurfaceGeometry& surface, std::span<const char> is_Ld,
+                 std::span<double> variation);
+  void find_strip(const SurfaceGeometry& surface, const Strip& strip, std::span<double> variation);
+
+  std::vector<std::shared_ptr<const SurfaceTerm>> terms_;
+  std::vector<std::vector<double>> density_; ///< of each term at the samples
+  StepProfiles profiles_;
+};
+
+} // namespace lamella
