@@ -1,5 +1,7 @@
 #include "dynamics/constraints.h"
 
+#include "dynamics/held_areas.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -18,7 +20,6 @@ using std::numbers::pi;
 constexpr double rounding = 1e-12;         // of times, relative
 constexpr double change_per_step = 2.5e-3; // of a reduced value that is led somewhere
 constexpr double calm = 0.4;               // rate of a ramp, in kappa / R^4
-constexpr double least_holding_domain = 8; // squared spacings
 const Eigen::Vector4d to_quantity{1, -1, -2, -1};
 using Groups = std::vector<std::vector<int>>;
 

@@ -15,9 +15,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double least_holding_domain = 8; // squared spacings: smaller ones hold nothing
-constexpr double beside = 1.2;             // spacings from the boundary: there a part is surely met
-constexpr double longest_shift = 0.02;     // spacings a step
+constexpr double beside = 1.2;         // spacings from the boundary: there a part is surely met
+constexpr double longest_shift = 0.02; // spacings a step
 constexpr std::size_t most_parts = 100;
 
 double squared_distance(const Vec3& a, const Vec3& b) {

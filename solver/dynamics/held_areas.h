@@ -12,6 +12,9 @@
 
 namespace lamella {
 
+/// Squared grid spacings: smaller domains hold nothing.
+inline constexpr double least_holding_domain = 8;
+
 /// The parts of the phases whose areas are held, and the tensions that hold them: all of Ld, or
 /// that of each vesicle that keeps its own lipid; or, where lipid resists local stretch and so
 /// cannot get from one domain into another, every domain of both phases but the largest of Lo of

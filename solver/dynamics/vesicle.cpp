@@ -471,8 +471,10 @@ double Vesicle::relaxation_time() const {
   return phases_ ? std::min(of_membrane, phases_->relaxation_time()) : of_membrane;
 }
 
+/// Where short waves gain as much as they cost elsewhere. (A little less than nothing, at a tip for
+/// a while, does no harm: the step damps short waves.)
 std::string Vesicle::why_not_stiff() const {
-  if (stiffness_.least > 0) return {};
+  if (stiffness_.least > -stiffness_.most) return {};
   const std::size_t i = stiffness_.softest;
   const double mean = 0.5 * surface_.KM()[i],
                apart = std::sqrt(std::max(0.0, mean * mean - surface_.K()[i]));

@@ -38,7 +38,7 @@ struct Found : StartSurface {
     components.find_samples(geometry);
   }
   SurfaceIntegrals integrals(int component) const {
-    return integrate(geometry, {}, {}, components.samples(component));
+    return integrate(geometry, {}, components.samples(component));
   }
   Components components{grid, true};
 };
@@ -225,13 +225,11 @@ TEST(HeldQuantities, HaveMultipliersOfTheirOwnOrInCommon) {
                  b = std::hypot(x[0] / 0.5, x[1] / 0.5, (x[2] + 0.45) / 0.35) - 1;
     return 0.3 * std::min(a, b);
   });
-  const Helfrich bending{1, -3};
-  std::vector<double> F;
-  for (std::size_t i = 0; i < s.geometry.size(); i++)
-    F.push_back(bending.variation(s.geometry.KM()[i], s.geometry.K()[i], s.geometry.lap_KM()[i]));
+  std::vector<double> F(s.geometry.size());
+  SurfaceEnergy(SurfaceModuli{1, -3}).find_forces(s.geometry, {}, {}, F);
   std::vector<SurfaceIntegrals> each;
   for (int k = 0; k < 2; k++)
-    each.push_back(integrate(s.geometry, bending, F, s.components.samples(k)));
+    each.push_back(integrate(s.geometry, F, s.components.samples(k)));
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(6, 6);
   Eigen::VectorXd variation(6);
   for (int k = 0; k < 2; k++) {

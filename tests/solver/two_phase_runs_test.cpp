@@ -128,7 +128,7 @@ TEST(BulgedCap, FeelsTheSquareOfTheGeodesicCurvature) {
   scene.line.geodesic_square_modulus = 1;
   const Measures end = run(scene).back();
   EXPECT_NEAR(end.energy, 126.57022, 0.09); // measured + .066, of which .050 without the modulus
-  EXPECT_NEAR(*end.phases->line_terms.geodesic_square, 0.64946, 0.04); // + .023
+  EXPECT_NEAR(*end.terms[Term::geodesic_square], 0.64946, 0.04); // + .023
   EXPECT_NEAR(end.phases->line_radius, 0.47998, 2e-3);
 }
 
@@ -147,9 +147,9 @@ TEST(BulgedCap, RestsInTheExactEquilibriumOfMixedLineModuli) {
   const Measures& end = history.back();
   EXPECT_LE(largest_rise_after(2e-3, history), 1e-3);
   EXPECT_NEAR(end.energy, 108.61714, 0.06); // measured + .039
-  EXPECT_NEAR(*end.phases->line_terms.geodesic_square, 0.73954, 0.01);
-  EXPECT_NEAR(*end.phases->line_terms.normal_square, 4.49365, 0.02);
-  EXPECT_NEAR(*end.phases->line_terms.normal, 5.90639, 0.01);
+  EXPECT_NEAR(*end.terms[Term::geodesic_square], 0.73954, 0.01);
+  EXPECT_NEAR(*end.terms[Term::normal_square], 4.49365, 0.02);
+  EXPECT_NEAR(*end.terms[Term::normal], 5.90639, 0.01);
   EXPECT_NEAR(end.phases->line_radius, 0.49423, 1.5e-3);
 }
 

@@ -130,8 +130,8 @@ TEST(MembraneMeasures, AgreeWithTheSolverOnPhases) {
   const auto table = measures_of(image_of(simulation.frame()));
   EXPECT_NEAR(value(table, "A_Ld") / m.area_Ld, 1, 1e-3);
   EXPECT_NEAR(value(table, "A_Lo") / m.area_Lo, 1, 1e-3);
-  EXPECT_NEAR(value(table, "bending_Ld") / m.terms.value(Term::bending)_Ld, 1, 2e-3);
-  EXPECT_NEAR(value(table, "bending_Lo") / m.terms.value(Term::bending)_Lo, 1, 2e-3);
+  EXPECT_NEAR(value(table, "bending_Ld") / m.bending_energy_Ld, 1, 2e-3);
+  EXPECT_NEAR(value(table, "bending_Lo") / m.bending_energy_Lo, 1, 2e-3);
   EXPECT_NEAR(value(table, "line_length") / m.line_length, 1, 1e-3);
 }
 

@@ -13,7 +13,7 @@ constexpr std::size_t chunk = 256;
 constexpr double longest_step = 0.5; // spacings
 
 /// A chunk of points and what the kernels say of them.
-struct Samples {
+struct Chunk {
   std::size_t count;
   std::array<double, chunk> x, y, z, phi, nx, ny, nz, grad, KM, K;
 
@@ -36,7 +36,7 @@ struct Samples {
   }
 };
 
-void take(vtkPoints& points, std::size_t begin, std::size_t end, Samples& samples) {
+void take(vtkPoints& points, std::size_t begin, std::size_t end, Chunk& samples) {
   samples.count = end - begin;
   for (std::size_t i = 0; i < samples.count; ++i) {
     Vec3 p;
@@ -46,7 +46,7 @@ void take(vtkPoints& points, std::size_t begin, std::size_t end, Samples& sample
 }
 
 /// The other way round, from `begin` on, with the geometry.
-void put(const Samples& s, std::size_t begin, vtkPoints& points, SplineGeometry& geometry) {
+void put(const Chunk& s, std::size_t begin, vtkPoints& points, SplineGeometry& geometry) {
   for (std::size_t i = 0; i < s.count; ++i) {
     points.SetPoint(vtkIdType(begin + i), s.x[i], s.y[i], s.z[i]);
     float* normal = &geometry.normals[3 * (begin + i)];
@@ -72,7 +72,7 @@ SplineGeometry move_onto(const LevelSet& phi, vtkPoints& points) {
   SplineGeometry geometry{std::vector<float>(3 * n), std::vector<double>(n),
                           std::vector<double>(n)};
   parallel_for(n, chunk, [&](std::size_t begin, std::size_t end) {
-    Samples samples;
+    Chunk samples;
     take(points, begin, end, samples);
     samples.evaluate(spline);
     samples.take_newton_step(longest_step * phi.grid().spacing);
@@ -86,7 +86,7 @@ std::vector<double> slopes_at(const LevelSet& phi, vtkPoints& points) {
   const SplineView spline = phi.view();
   std::vector<double> slopes(points.GetNumberOfPoints());
   parallel_for(slopes.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    Samples samples;
+    Chunk samples;
     take(points, begin, end, samples);
     samples.evaluate(spline);
     std::copy_n(samples.grad.begin(), samples.count, slopes.begin() + std::ptrdiff_t(begin));

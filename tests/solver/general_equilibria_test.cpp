@@ -1,0 +1,62 @@
+// Equilibria of vesicles with all terms of Eq. 5 against exact axisymmetric ones.
+#include "runs.h"
+
+namespace lamella {
+namespace {
+
+struct Equilibrium {
+  const char* name;
+  SurfaceModuli moduli;
+  double energy; ///< of tests/reference/general_density.py
+};
+
+void PrintTo(const Equilibrium& of, std::ostream* out) { *out << of.name; }
+
+SurfaceModuli bending_and(double SurfaceModuli::*modulus, double value) {
+  SurfaceModuli m;
+  m.*modulus = value;
+  return m;
+}
+
+using M = SurfaceModuli;
+const Equilibrium equilibria[] = {
+    {"linear", bending_and(&M::linear_modulus, 3), 2.5566619613533},
+    {"cubic", bending_and(&M::cubic_modulus, -0.02), 44.578970729769},
+    {"mixed_cubic", bending_and(&M::mixed_cubic_modulus, 0.05), 29.829474920849},
+    {"quartic", bending_and(&M::quartic_modulus, 0.02), 104.87214228999},
+    {"mixed_quartic", bending_and(&M::mixed_quartic_modulus, 0.03), 58.864951323677},
+    {"gaussian_square", bending_and(&M::gaussian_square_modulus, 0.05), 45.015315201940},
+    {"all", {1, -2, 0, 2, 0.02, -0.03, 0.01, 0.01, 0.02}, 36.184327529870},
+};
+
+class GeneralEquilibria : public testing::TestWithParam<Equilibrium> {};
+INSTANTIATE_TEST_SUITE_P(Terms, GeneralEquilibria, testing::ValuesIn(equilibria),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// sum (2 - d) E_d, d the power of 1 / length that the density of a term is.
+double of_scaling(const SurfaceModuli& m, const Measures& end) {
+  const EnergyTerms& E = end.terms;
+  const double C = m.spontaneous_curvature,
+               int_KM = -end.area_difference * 8 * M_PI * std::sqrt(end.area / (4 * M_PI));
+  return m.bending_modulus * (C * C * end.area - C * int_KM) + E.value(Term::linear) -
+         E.value(Term::cubic) - E.value(Term::mixed_cubic) - 2 * E.value(Term::quartic) -
+         2 * E.value(Term::mixed_quartic) - 2 * E.value(Term::gaussian_square);
+}
+
+TEST_P(GeneralEquilibria, AreExact) {
+  Scene scene =
+      scene_of({.kind = ShapeKind::prolate, .semi_axis = 0.7, .reduced_volume = 0.8}, 48, 3e-3);
+  scene.membrane = GetParam().moduli;
+  const std::vector<Measures> history = run(scene);
+  const Measures& end = history.back();
+  const double scale = std::max(end.terms.value(Term::bending), std::abs(end.energy));
+  std::printf("%s: %.1e after %zu steps\n", GetParam().name,
+              (end.energy - GetParam().energy) / scale, history.size() - 1);
+  EXPECT_NEAR(end.energy, GetParam().energy, 5e-5 * scale);
+  const double virial = 3 * end.P * end.volume - 2 * end.sigma * end.area;
+  EXPECT_NEAR(of_scaling(GetParam().moduli, end), virial, 1e-2 * scale);
+  EXPECT_LT(largest_rise(history), 1e-4);
+}
+
+} // namespace
+} // namespace lamella
