@@ -134,8 +134,7 @@ vtkSmartPointer<vtkPolyData> ExactSurface(
   const LevelSet phi = lamella::fitted(frame.grid, frame.phi);
   const Frame fine = Refined(frame, refinement ? refinement : SuitableRefinement(frame, phi));
   const auto mesh = lamella::contour(fine);
-  const SplineGeometry geometry =
-    lamella::move_onto(phi, *mesh->GetPoints());
+  const SplineGeometry geometry = lamella::move_onto(phi, *mesh->GetPoints());
   const lamella::Scene forces = lamella::forces_of(about, frame, otherwise);
   AddNormals(*mesh, geometry);
   lamella::add_fields(*mesh, fine);
@@ -145,8 +144,7 @@ vtkSmartPointer<vtkPolyData> ExactSurface(
   if (multipliers)
   {
     AddVelocity(*mesh, geometry,
-      lamella::normal_velocity(
-        frame, phi, forces, *multipliers, *mesh->GetPoints()));
+      lamella::normal_velocity(frame, phi, forces, *multipliers, *mesh->GetPoints()));
   }
   return mesh;
 }

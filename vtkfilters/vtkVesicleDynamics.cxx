@@ -73,7 +73,8 @@ lamellaProperty(vtkVesicleDynamics, CubicModulus, double, membrane.cubic_modulus
 lamellaProperty(vtkVesicleDynamics, MixedCubicModulus, double, membrane.mixed_cubic_modulus);
 lamellaProperty(vtkVesicleDynamics, QuarticModulus, double, membrane.quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, MixedQuarticModulus, double, membrane.mixed_quartic_modulus);
-lamellaProperty(vtkVesicleDynamics, GaussianSquareModulus, double, membrane.gaussian_square_modulus);
+lamellaProperty(
+  vtkVesicleDynamics, GaussianSquareModulus, double, membrane.gaussian_square_modulus);
 lamellaProperty(vtkVesicleDynamics, LdBendingModulus, double, ld.bending_modulus);
 lamellaProperty(vtkVesicleDynamics, LdSpontaneousCurvature, double, ld.spontaneous_curvature);
 lamellaProperty(vtkVesicleDynamics, LdGaussianModulus, double, ld.gaussian_modulus);
