@@ -19,10 +19,11 @@ struct LineLoads {
   std::vector<double> second;         ///< dl/dB_perp
 
   LineLoads() = default;
-  /// `ribbon`: one for each point of the boundary. `dn_KM`: d_n K_M at the points, the mean of both
-  /// sides; counts where l depends on B_perp, and may be empty where it does not.
+  /// `ribbon`: one for each point of the boundary. `dn_B_perp`: the derivative of the membrane's
+  /// curvature along the geodesic across the boundary, at the points, the mean of both sides; counts
+  /// where l depends on B_perp, and may be empty where it does not.
   LineLoads(const LineDensity& density, const PhaseBoundary& boundary,
-            std::span<const CurveGeometry> ribbon, std::span<const double> dn_KM = {});
+            std::span<const CurveGeometry> ribbon, std::span<const double> dn_B_perp = {});
 };
 
 } // namespace lamella

@@ -101,7 +101,12 @@ double predicted(const TwoPhases& s, const LineDensity& line, bool vary_phi, boo
   });
   const std::vector<double> at_boundary = displacement(places);
   const std::vector<CurveGeometry> ribbon(s.boundary.points().begin(), s.boundary.points().end());
-  const LineLoads loads(line, s.boundary, ribbon, KM.first);
+  std::vector<double> tau;
+  for (const CurveGeometry& p : ribbon) tau.push_back(p.tau_g);
+  std::vector<double> dn_B_perp = s.boundary.derivative(tau);
+  for (std::size_t i = 0; i < ribbon.size(); i++) // by Codazzi
+    dn_B_perp[i] = KM.first[i] - dn_B_perp[i] + ribbon[i].kg * (ribbon[i].B_perp - ribbon[i].kn);
+  const LineLoads loads(line, s.boundary, ribbon, dn_B_perp);
   double dE = 0;
   for (std::size_t i = 0; i < places.size(); i++) {
     const BoundaryPoint& p = s.boundary.points()[i];
