@@ -1,9 +1,13 @@
 #include "dynamics/line_forces.h"
 
 #include "levelset/taylor.h"
+#include "parallel.h"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lamella {
 
@@ -13,6 +17,9 @@ using Eigen::Vector3d;
 
 constexpr double reach = 6;  // grid spacings, half the width of the strip
 constexpr int half_rule = 8; // points on either side; the profile ends smoothly
+
+constexpr double point_distance = 0.5, hat_distance = 2; // of the boundary, in balance()
+constexpr int powers = 3;
 
 /// Without what the strip has smeared by itself.
 Line sharp(Line moduli) {
@@ -65,6 +72,27 @@ std::vector<double> walk(std::vector<Walker>& walkers, const LevelSet& phi, doub
   }
   return B;
 }
+
+/// A function of the place along a closed curve and of the distance u from it, of the few that
+/// balance() makes use of: hats along the curve times powers of u.
+struct Hats {
+  int count;
+  double per_point;
+
+  explicit Hats(std::size_t points)
+      : count(std::max(4, int(double(points) * point_distance / hat_distance))),
+        per_point(double(count) / double(points)) {}
+  /// The two that are not 0 at a place along the curve, in points, and the second's value.
+  struct Pair {
+    int first, second;
+    double share;
+  };
+  Pair at(double place) const {
+    const double y = place * per_point, floor = std::floor(y);
+    const int j = ((int(floor) % count) + count) % count;
+    return {j, (j + 1) % count, y - floor};
+  }
+};
 
 } // namespace
 
@@ -135,12 +163,71 @@ double LineForces::energy(const LineDensity& part, const PhaseBoundary& boundary
   return sum;
 }
 
-double LineForces::variation(const PhaseBoundary& boundary, const BoundaryFeet::Foot& foot,
-                             double psi, double slope2, double lap) const {
-  if (!exist_ || !foot.exists()) return 0;
-  const SmearedStep::Value d = of_couples_.at(psi);
-  return -profile_.at(psi).delta * std::sqrt(slope2) * foot.smooth_value(along_N_, boundary) -
-         foot.smooth_value(couple_, boundary) * (d.slope * slope2 + d.delta * lap);
+std::vector<double> LineForces::variation(const PhaseBoundary& boundary,
+                                          std::span<const Place> places) const {
+  std::vector<double> F(places.size());
+  parallel_for(places.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++) {
+      const auto& [foot, psi, slope2, lap, weight] = places[i];
+      const SmearedStep::Value d = of_couples_.at(psi);
+      F[i] = -profile_.at(psi).delta * std::sqrt(slope2) * foot.smooth_value(along_N_, boundary) -
+             foot.smooth_value(couple_, boundary) * (d.slope * slope2 + d.delta * lap);
+    }
+  });
+  for (std::size_t c = 0; c < boundary.curves(); c++) balance(boundary, c, places, F);
+  return F;
+}
+
+/// Quadrature errs where forces swing to and fro across the strip. What that does to displacements
+/// that are constant, linear or quadratic across it and slow along the boundary is known exactly,
+/// and is taken off by forces of the same kind.
+void LineForces::balance(const PhaseBoundary& boundary, std::size_t curve,
+                         std::span<const Place> places, std::span<double> variation) const {
+  const std::span<const BoundaryPoint> points = boundary.curve(curve);
+  const int begin = int(points.data() - boundary.points().data()), n = int(points.size());
+  const Hats hats(points.size());
+  const int unknowns = powers * hats.count;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  Eigen::VectorXd missing = Eigen::VectorXd::Zero(unknowns);
+  for (int j = 0; j < n; j++) {
+    const Hats::Pair pair = hats.at(j);
+    const double w = points[j].weight;
+    for (const auto& [hat, value] :
+         {std::pair(pair.first, 1 - pair.share), std::pair(pair.second, pair.share)}) {
+      missing[powers * hat] -= w * value * along_N_[begin + j];
+      missing[powers * hat + 1] += w * value * couple_[begin + j] / h_;
+    }
+  }
+  struct Member {
+    std::size_t place;
+    Hats::Pair pair;
+    double u, bell;
+  };
+  std::vector<Member> members;
+  for (std::size_t i = 0; i < places.size(); i++) {
+    const BoundaryFeet::Foot& foot = places[i].foot;
+    const int at = foot.at - begin;
+    if (at < 0 || at >= n) continue;
+    const bool forwards = foot.next - begin == (at + 1) % n;
+    const double u = foot.distance / h_, v = std::max(0.0, 1 - u * u / (reach * reach));
+    members.push_back({i, hats.at(at + (forwards ? foot.share : -foot.share)), u, v * v * v});
+  }
+  const auto each = [&](const Member& m, auto&& f) {
+    for (const auto& [hat, value] :
+         {std::pair(m.pair.first, 1 - m.pair.share), std::pair(m.pair.second, m.pair.share)})
+      for (int k = 0; k < powers; k++) f(powers * hat + k, value * std::pow(m.u, k));
+  };
+  for (const Member& m : members) {
+    const double w = places[m.place].weight;
+    each(m, [&](int a, double of_a) {
+      missing[a] -= w * of_a * variation[m.place];
+      each(m, [&](int b, double of_b) { gram(a, b) += w * m.bell * of_a * of_b; });
+    });
+  }
+  gram.diagonal().array() += 1e-9 * gram.trace() / unknowns;
+  const Eigen::VectorXd factors = gram.ldlt().solve(missing);
+  for (const Member& m : members)
+    each(m, [&](int a, double of_a) { variation[m.place] += m.bell * of_a * factors[a]; });
 }
 
 /// By what a wave v of the boundary and w of the membrane changes the curvatures most: kg by d_s^2

@@ -32,12 +32,15 @@ public:
   double energy(const LineDensity& part, const PhaseBoundary& boundary) const;
   /// Along n, per length.
   double along_boundary(std::size_t point) const { return along_n_[point]; }
-  /// Of the membrane's energy with a normal displacement, per area, at a place whose foot is known;
-  /// `slope2` the square of grad_s psi, `lap` Lap_s psi.
-  double variation(const PhaseBoundary& boundary, const BoundaryFeet::Foot& foot, double psi,
-                   double slope2, double lap) const;
-
-  /// Bound of |variation|.
+  /// A sample in the strip, of which the foot is known.
+  struct Place {
+    BoundaryFeet::Foot foot;
+    double psi, slope2, lap; ///< |grad_s psi|^2, Lap_s psi
+    double weight;           ///< area
+  };
+  /// Of the membrane's energy with a normal displacement, per area, at the places of the strip.
+  std::vector<double> variation(const PhaseBoundary& boundary, std::span<const Place> places) const;
+  /// About the most that variation() comes to.
   double greatest() const { return greatest_; }
 
   /// Force per length of waves of the boundary that are k in number a radian and 1 high: of the
@@ -52,6 +55,8 @@ public:
 private:
   void find_ribbon(const PhaseBoundary& boundary, const LevelSet& phi);
   void find_stiffness();
+  void balance(const PhaseBoundary& boundary, std::size_t curve, std::span<const Place> places,
+               std::span<double> variation) const;
 
   bool exist_;
   double h_;

@@ -230,10 +230,22 @@ void Phases::add_line_forces(const SurfaceGeometry& surface, std::span<double> v
       const int i = s.sample;
       const double along = dot(jets_.psi[m].grad, jets_.psi[m].B_grad),
                    kn = s.slope2 > 0 ? surface.KM()[i] - along / s.slope2 : 0;
-      variation[i] += line_forces_.variation(boundary_, s.foot, s.psi, s.slope2, s.lap) -
-                      line_.tension * delta_[i] * kn;
+      variation[i] -= line_.tension * delta_[i] * kn;
     }
   });
+  if (line_forces_.exist()) spread_line_forces(surface, variation);
+}
+
+void Phases::spread_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const {
+  std::vector<LineForces::Place> places;
+  std::vector<int> samples;
+  for (const StripPoint& s : strip_) {
+    if (!s.foot.exists()) continue;
+    places.push_back({s.foot, s.psi, s.slope2, s.lap, surface.weight()[s.sample]});
+    samples.push_back(s.sample);
+  }
+  const std::vector<double> F = line_forces_.variation(boundary_, places);
+  for (std::size_t m = 0; m < F.size(); m++) variation[samples[m]] += F[m];
 }
 
 /// The force along n on each point of the boundary. What the strip does as a whole is summed along

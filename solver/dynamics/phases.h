@@ -132,6 +132,7 @@ private:
   void add_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const;
   void restore_distance(const NarrowBand& band);
   void find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energy);
+  void spread_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const;
   double saturated(double s) const;
   double boundary_taper(double s) const;
 
