@@ -537,12 +537,12 @@ EnergyTerms Vesicle::energies() const {
 
 double Vesicle::energy_scale() const {
   const double softest = std::min(ld_.bending_modulus, lo_.bending_modulus);
-  const double line = phases_ ? phases_->line().tension * phases_->boundary().length() : 0;
-  const double stretching = stretch_ ? stretch_->energy(surface_) : 0;
-  EnergyTerms bending;
-  energy_.find_energies(surface_, bending);
-  return std::max(8 * std::numbers::pi * softest,
-                  bending.value(Term::bending) + line + stretching + film_energy_);
+  const EnergyTerms terms = energies();
+  double sum = 0;
+  for (const Term term : {Term::bending, Term::line_tension, Term::geodesic_square,
+                          Term::normal_square, Term::torsion_square, Term::stretch, Term::film})
+    sum += terms.value(term);
+  return std::max(8 * std::numbers::pi * softest, sum);
 }
 
 Measures Vesicle::measures(double time) const {

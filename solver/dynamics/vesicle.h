@@ -66,8 +66,8 @@ public:
   /// All terms.
   EnergyTerms energies() const;
   /// What changes of the energy are compared with: the sum of those terms that cannot be negative
-  /// (bending, line tension, stretch, films), or the bending energy of a sphere, 8 pi kappa of the
-  /// softer phase, where that is more. Never 0, unlike the energy.
+  /// (bending, line tension, squares of the line, stretch, films), or the bending energy of a
+  /// sphere, 8 pi kappa of the softer phase, where that is more. Never 0, unlike the energy.
   double energy_scale() const;
   /// All but the step.
   Measures measures(double time) const;

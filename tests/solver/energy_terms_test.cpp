@@ -33,7 +33,7 @@ TEST(EnergyTerms, OfSquaresOnASphereAreExact) {
                 .normal_square_modulus = 0.25};
   const double L = 2 * pi * 0.6 * std::sqrt(0.75), kg = -0.5 / (0.6 * std::sqrt(0.75));
   const EnergyTerms terms = Simulation(scene).measures().terms;
-  EXPECT_NEAR(*terms[Term::geodesic_square], 0.5 * kg * kg * L, 1e-3); // measured
+  EXPECT_NEAR(*terms[Term::geodesic_square], 0.5 * kg * kg * L, 1e-3);
   EXPECT_NEAR(*terms[Term::normal_square], 0.25 / (0.6 * 0.6) * L, 1e-3);
   EXPECT_NEAR(*terms[Term::torsion_square], 0, 1e-6);
 }
