@@ -20,8 +20,8 @@ struct LineLoads {
 
   LineLoads() = default;
   /// `ribbon`: one for each point of the boundary. `dn_B_perp`: the derivative of the membrane's
-  /// curvature along the geodesic across the boundary, at the points, the mean of both sides; counts
-  /// where l depends on B_perp, and may be empty where it does not.
+  /// curvature along the geodesic across the boundary, at the points, the mean of both sides;
+  /// counts where l depends on B_perp, and may be empty where it does not.
   LineLoads(const LineDensity& density, const PhaseBoundary& boundary,
             std::span<const CurveGeometry> ribbon, std::span<const double> dn_B_perp = {});
 };
