@@ -90,7 +90,7 @@ void write_surfaces(const render::StoredStates& run, const std::vector<std::size
     const SeriesEntry& frame = run.frames()[n];
     const render::State state = run.at(frame.time);
     vtkNew<vtkImageData> image;
-    fill_state(*image, state.frame, state.measures, state.scene);
+    fill_state(*image, state.frame, state.measures, state.scene, state.vesicles);
     const auto vtp = [&](vtkPolyDataAlgorithm& filter) {
       return vtp_of(*polygons(filter, *image, frame.file), frame.file);
     };

@@ -38,7 +38,8 @@
  *
  * `velocity` is that of all forces of the state: bending, the phase boundary, local stretch, films and
  * the constraints; of several domains that local stretch holds, each with a tension of its own, it has
- * their mean tension, and of several vesicles with pressures and tensions of their own the mean ones. Where there is more than bending it takes several times as long as the rest.
+ * their mean tension. Where several vesicles have pressures and tensions of their own (field data
+ * `vesicles`, their number), there is none. Where there is more than bending it takes several times as long as the rest.
  *
  * T. Zhang, C. W. Wolgemuth, J. Comput. Phys. 450 (2022) 110815.
  *

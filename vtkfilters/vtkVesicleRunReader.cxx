@@ -104,14 +104,17 @@ int vtkVesicleRunReader::RequestData(
         throw lamella::InputError(run.history.string() + ": the history has no rows");
       }
       const lamella::Scene scene = lamella::read_scene(run.scene);
+      const auto vesicles = lamella::read_components(run.components);
       const auto& [file, time] =
         FrameAt(run, lamella::valid_time(lamella::requested_time(*request, *output)));
-      lamella::fill_state(
-        *vtkImageData::GetData(output, 0), lamella::read_frame(file), RowAt(history, time), scene);
+      const lamella::Measures measures = RowAt(history, time);
+      const auto now =
+        std::ranges::count(vesicles, measures.time, &lamella::ComponentMeasures::time);
+      lamella::fill_state(*vtkImageData::GetData(output, 0), lamella::read_frame(file), measures,
+        scene, std::max(1, int(now)));
       lamella::fill_history(*vtkTable::GetData(output, 1), history);
       lamella::fill_events(*vtkTable::GetData(output, 2), lamella::read_events(run.events));
-      lamella::fill_components(
-        *vtkTable::GetData(output, 3), lamella::read_components(run.components));
+      lamella::fill_components(*vtkTable::GetData(output, 3), vesicles);
     });
 }
 

@@ -24,6 +24,7 @@ StoredStates::StoredStates(const std::filesystem::path& folder) {
   const RunFiles files = find_run_files(folder);
   scene_ = read_scene(files.scene);
   history_ = read_history(files.history);
+  vesicles_ = read_components(files.components);
   frames_ = files.frames;
   if (folder.is_relative()) // as the user calls them, in messages
     for (SeriesEntry& frame : frames_) frame.file = std::filesystem::proximate(frame.file);
@@ -42,7 +43,9 @@ State StoredStates::at(double time) const {
       frames_, {}, [&](const SeriesEntry& entry) { return std::abs(entry.time - time); });
   const auto row = std::ranges::min_element(
       history_, {}, [&](const Measures& m) { return std::abs(m.time - frame->time); });
-  return {read_frame(frame->file), row == history_.end() ? Measures{} : *row, scene_};
+  const Measures measures = row == history_.end() ? Measures{} : *row;
+  const auto vesicles = std::ranges::count(vesicles_, measures.time, &ComponentMeasures::time);
+  return {read_frame(frame->file), measures, scene_, std::max(1, int(vesicles))};
 }
 
 std::vector<Surface> surfaces_at(const StoredStates& run, const std::vector<double>& times,

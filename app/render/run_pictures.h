@@ -29,6 +29,7 @@ public:
 private:
   Scene scene_;
   std::vector<Measures> history_;
+  std::vector<ComponentMeasures> vesicles_;
   std::vector<SeriesEntry> frames_;
 };
 

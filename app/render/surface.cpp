@@ -127,13 +127,14 @@ Surface extract_surface(const State& state, Quantity quantity) {
     return surface;
   }
   vtkNew<vtkImageData> image;
-  fill_state(*image, state.frame, state.measures, state.scene);
+  fill_state(*image, state.frame, state.measures, state.scene, state.vesicles);
   Surface surface = extract(*image, state.frame, quantity != Quantity::c);
   const std::string name(to_string(quantity));
   if (!surface.mesh->GetPointData()->HasArray(name.c_str()))
     throw RenderError(
         "colours of " + name +
-        " need a field that the run does not have; c needs [stretch] modulus above 0");
+        " need a field that the run does not have; c needs [stretch] modulus above 0, velocity one "
+        "vesicle, or several that hold volume and area together");
   if (quantity == Quantity::velocity) project_velocity(*surface.mesh);
   surface.units = Units(state.scene);
   scale(*surface.mesh, name, surface.units);

@@ -38,6 +38,7 @@ struct State {
   Frame frame;
   Measures measures{};
   Scene scene{};
+  int vesicles = 1; ///< that have multipliers of their own
 };
 
 /// The surface alone suits Quantity::phase. Throws RenderError when phi is nowhere negative.

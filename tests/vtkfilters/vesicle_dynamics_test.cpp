@@ -186,11 +186,18 @@ TEST(VesicleDynamics, TellsWhatEachOfSeveralVesiclesHas) {
     EXPECT_NEAR(vesicles->GetValueByName(row, "x").ToDouble(), x, 1e-3);
     EXPECT_NEAR(vesicles->GetValueByName(row, "A").ToDouble() / (4 * M_PI * R * R), 1, 1e-3);
   }
+  vtkNew<vtkMembraneSurface> surface;
+  surface->SetInputConnection(dynamics->GetOutputPort());
+  surface->UpdateTimeStep(0);
+  EXPECT_FALSE(surface->GetOutput()->GetPointData()->HasArray("velocity"))
+      << "each has multipliers of its own";
   dynamics->SetAreaOf("all");
   dynamics->SetVolumeOf("all");
   dynamics->UpdateTimeStep(0);
   vesicles = vtkTable::SafeDownCast(dynamics->GetOutputDataObject(3));
   EXPECT_EQ(vesicles->GetNumberOfRows(), 0);
+  surface->UpdateTimeStep(0);
+  EXPECT_TRUE(surface->GetOutput()->GetPointData()->HasArray("velocity"));
 }
 
 TEST(VesicleDynamics, ComputesAnewOnlyWhatChanges) {

@@ -80,7 +80,8 @@ std::optional<KnownMultipliers> multipliers_of(vtkDataObject& data, bool has_pha
   const auto P = field_value(data, "P"), K_multiplier = field_value(data, "K_multiplier"),
              sigma = field_value(data, has_phases ? "sigma_Lo" : "sigma"),
              sigma_Ld = has_phases ? field_value(data, "sigma_Ld") : 0.0;
-  if (!P || !sigma || !K_multiplier || !sigma_Ld) return {};
+  const bool is_one = field_value(data, "vesicles").value_or(1) == 1;
+  if (!is_one || !P || !sigma || !K_multiplier || !sigma_Ld) return {};
   return KnownMultipliers{*P, *sigma, *K_multiplier, *sigma_Ld};
 }
 

@@ -22,7 +22,7 @@ void set_forces(vtkDataObject& data, const Scene& scene);
 Scene forces_of(vtkDataObject& data, const Frame& frame, const SurfaceModuli& otherwise);
 
 /// Multipliers in the normal velocity of a membrane; nothing where the field data does not have all
-/// of them.
+/// of them, or several vesicles have their own.
 std::optional<KnownMultipliers> multipliers_of(vtkDataObject& data, bool has_phases);
 
 } // namespace lamella

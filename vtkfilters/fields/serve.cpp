@@ -78,7 +78,7 @@ void serve(vtkAlgorithm* self, Trajectory& trajectory, const Vec3& center,
   const State state = trajectory.at(request.time, request.go_on);
   if (trajectory.history().size() > steps) self->Modified();
   fill_state(*vtkImageData::GetData(&output, 0), state.frame, state.measures, trajectory.scene(),
-             center);
+             state.vesicles, center);
   fill_history(*vtkTable::GetData(&output, 1), trajectory.history());
   fill_events(*vtkTable::GetData(&output, 2), trajectory.events(), center);
   fill_components(*vtkTable::GetData(&output, 3), trajectory.components(), center);

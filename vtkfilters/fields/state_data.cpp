@@ -54,11 +54,12 @@ void fill_table(vtkTable& table, std::span<const Record> records, Record like) {
 } // namespace
 
 void fill_state(vtkImageData& image, const Frame& frame, const Measures& measures,
-                const Scene& scene, const Vec3& center) {
+                const Scene& scene, int vesicles, const Vec3& center) {
   fill_image(image, frame, center);
   Measures copy = measures;
   for (const Field& field : row_of(copy))
     set_field_value(image, std::string(field.column), number_in(field));
+  if (vesicles > 1) set_field_value(image, "vesicles", vesicles);
   set_forces(image, scene);
 }
 

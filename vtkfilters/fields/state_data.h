@@ -12,9 +12,10 @@
 
 namespace lamella {
 
-/// The image of a frame, and its field data: the measures, and the parameters of the membrane.
+/// The image of a frame, and its field data: the measures, the parameters of the membrane, and how
+/// many vesicles there are where several have multipliers of their own.
 void fill_state(vtkImageData& image, const Frame& frame, const Measures& measures,
-                const Scene& scene, const Vec3& center = {});
+                const Scene& scene, int vesicles = 1, const Vec3& center = {});
 
 /// Measures, one row each, in the columns of history.csv.
 void fill_history(vtkTable& table, std::span<const Measures> history);

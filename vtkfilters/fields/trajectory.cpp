@@ -131,7 +131,7 @@ bool Trajectory::Way::arrived() const {
 }
 
 State Trajectory::Way::state() const {
-  State state{simulation.frame(), simulation.measures()};
+  State state{simulation.frame(), simulation.measures(), simulation.vesicles()};
   state.measures.time = state.frame.time = arrived() ? goal : begin + simulation.time();
   return state;
 }

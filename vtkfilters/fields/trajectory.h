@@ -14,6 +14,7 @@ namespace lamella {
 struct State {
   Frame frame;
   Measures measures;
+  int vesicles = 1; ///< that hold something of their own
 };
 
 /// The times at which a scene stores its state, from 0 to its end.
@@ -62,7 +63,9 @@ private:
   bool advance(std::size_t stored, const GoOn& go_on);
   bool ended_by_rule();
   void note_components();
-  State now() const { return {simulation_.frame(), simulation_.measures()}; }
+  State now() const {
+    return {simulation_.frame(), simulation_.measures(), simulation_.vesicles()};
+  }
   State between(std::size_t stored, double time, const GoOn& go_on);
 
   Scene scene_;
