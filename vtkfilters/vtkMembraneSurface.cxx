@@ -94,7 +94,8 @@ void AddEnergyDensity(
 {
   vtkDoubleArray* psi = PsiOf(mesh);
   double* density = AddArray(mesh, "energy_density");
-  const lamella::SurfaceEnergy membrane(forces.membrane), ld(forces.ld), lo(forces.lo);
+  const lamella::SurfaceEnergy membrane(forces.membrane, forces.parameters),
+    ld(forces.ld, forces.parameters), lo(forces.lo, forces.parameters);
   for (std::size_t n = 0; n < geometry.KM.size(); ++n)
   {
     const bool isLd = psi && psi->GetValue(static_cast<vtkIdType>(n)) < 0;

@@ -20,8 +20,9 @@ vtkStandardNewMacro(vtkVesicleDynamics);
 
 namespace
 {
-constexpr std::array<std::string_view, 14> Sections = { "membrane", "domains", "ld", "lo", "line",
-  "stretch", "volume", "area", "area_difference", "contact", "run", "stop", "numerics", "output" };
+constexpr std::array<std::string_view, 15> Sections = { "membrane", "domains", "ld", "lo", "line",
+  "parameters", "stretch", "volume", "area", "area_difference", "contact", "run", "stop",
+  "numerics", "output" };
 
 lamella::Trajectory Begin(const lamella::Scene& scene, lamella::Frame start)
 {
@@ -75,6 +76,7 @@ lamellaProperty(vtkVesicleDynamics, QuarticModulus, double, membrane.quartic_mod
 lamellaProperty(vtkVesicleDynamics, MixedQuarticModulus, double, membrane.mixed_quartic_modulus);
 lamellaProperty(
   vtkVesicleDynamics, GaussianSquareModulus, double, membrane.gaussian_square_modulus);
+lamellaTextProperty(vtkVesicleDynamics, Density, membrane.density);
 lamellaProperty(vtkVesicleDynamics, LdBendingModulus, double, ld.bending_modulus);
 lamellaProperty(vtkVesicleDynamics, LdSpontaneousCurvature, double, ld.spontaneous_curvature);
 lamellaProperty(vtkVesicleDynamics, LdGaussianModulus, double, ld.gaussian_modulus);
@@ -84,6 +86,7 @@ lamellaProperty(vtkVesicleDynamics, LdMixedCubicModulus, double, ld.mixed_cubic_
 lamellaProperty(vtkVesicleDynamics, LdQuarticModulus, double, ld.quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, LdMixedQuarticModulus, double, ld.mixed_quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, LdGaussianSquareModulus, double, ld.gaussian_square_modulus);
+lamellaTextProperty(vtkVesicleDynamics, LdDensity, ld.density);
 lamellaProperty(vtkVesicleDynamics, LoBendingModulus, double, lo.bending_modulus);
 lamellaProperty(vtkVesicleDynamics, LoSpontaneousCurvature, double, lo.spontaneous_curvature);
 lamellaProperty(vtkVesicleDynamics, LoGaussianModulus, double, lo.gaussian_modulus);
@@ -93,6 +96,7 @@ lamellaProperty(vtkVesicleDynamics, LoMixedCubicModulus, double, lo.mixed_cubic_
 lamellaProperty(vtkVesicleDynamics, LoQuarticModulus, double, lo.quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, LoMixedQuarticModulus, double, lo.mixed_quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, LoGaussianSquareModulus, double, lo.gaussian_square_modulus);
+lamellaTextProperty(vtkVesicleDynamics, LoDensity, lo.density);
 lamellaProperty(vtkVesicleDynamics, DomainsCurvatureStartTime, double, curvature_start_time);
 lamellaProperty(vtkVesicleDynamics, LineTension, double, line.tension);
 lamellaProperty(vtkVesicleDynamics, LineGeodesicModulus, double, line.geodesic_modulus);
@@ -104,6 +108,7 @@ lamellaProperty(vtkVesicleDynamics, LineTorsionSquareModulus, double, line.torsi
 lamellaProperty(vtkVesicleDynamics, LineNormalSquareModulus, double, line.normal_square_modulus);
 lamellaProperty(vtkVesicleDynamics, LinePerpendicularModulus, double, line.perpendicular_modulus);
 lamellaProperty(vtkVesicleDynamics, LineDrag, double, line.drag);
+lamellaTextProperty(vtkVesicleDynamics, LineDensity, line.density);
 lamellaProperty(vtkVesicleDynamics, StretchModulus, double, stretch.modulus);
 lamellaChoiceProperty(vtkVesicleDynamics, VolumeConstraint, "volume", "constraint");
 lamellaRampProperty(vtkVesicleDynamics, Volume, volume.ramp);
@@ -128,6 +133,17 @@ lamellaProperty(vtkVesicleDynamics, StopWallTime, double, stop.wall_time);
 lamellaProperty(vtkVesicleDynamics, Tolerance, double, numerics.tolerance);
 lamellaProperty(vtkVesicleDynamics, MaxTimeStep, double, numerics.max_time_step);
 lamellaProperty(vtkVesicleDynamics, OutputFrames, int, output.frames);
+
+void vtkVesicleDynamics::SetParameters(const char* value)
+{
+  if (lamella::set_parameters(*this->Scene, value ? value : ""))
+    this->Modified();
+}
+
+const char* vtkVesicleDynamics::GetParameters()
+{
+  return this->Scene->parameters_text.c_str();
+}
 
 vtkVesicleDynamics::vtkVesicleDynamics()
   : Scene(std::make_unique<lamella::PropertyScene>())

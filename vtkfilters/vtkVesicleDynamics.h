@@ -149,6 +149,13 @@ public:
   ///@}
 
   ///@{
+  /** [membrane] density: one more energy per area, a formula of KM and K. A text;
+   * energy/length^2. Default none. */
+  void SetDensity(const char* value);
+  const char* GetDensity();
+  ///@}
+
+  ///@{
   /** [domains] curvature_start_time: cap, caps, frame: until then the spontaneous curvatures of
    * both phases are 0. A number from 0 to 1e+30; time. Default 0. */
   void SetDomainsCurvatureStartTime(double value);
@@ -216,6 +223,13 @@ public:
   ///@}
 
   ///@{
+  /** [ld] density: one more energy per area, a formula of KM and K. A text; energy/length^2.
+   * Default none. */
+  void SetLdDensity(const char* value);
+  const char* GetLdDensity();
+  ///@}
+
+  ///@{
   /** [lo] bending_modulus: bending modulus kappa: of half the square of K_M less
    * spontaneous_curvature (Helfrich). A number from 1e-30 to 1e+30; energy. Default 1. */
   void SetLoBendingModulus(double value);
@@ -273,6 +287,13 @@ public:
    * 0. */
   void SetLoGaussianSquareModulus(double value);
   double GetLoGaussianSquareModulus();
+  ///@}
+
+  ///@{
+  /** [lo] density: one more energy per area, a formula of KM and K. A text; energy/length^2.
+   * Default none. */
+  void SetLoDensity(const char* value);
+  const char* GetLoDensity();
   ///@}
 
   ///@{
@@ -337,6 +358,19 @@ public:
    * to 1e+30; length. Default 0. */
   void SetLineDrag(double value);
   double GetLineDrag();
+  ///@}
+
+  ///@{
+  /** [line] density: one more energy per length, a formula of kg, kn and tau_g. A text;
+   * energy/length. Default none. */
+  void SetLineDensity(const char* value);
+  const char* GetLineDensity();
+  ///@}
+
+  ///@{
+  /** [parameters]: numbers that densities name, as in "a = 3, C0 = -2". Default none. */
+  void SetParameters(const char* value);
+  const char* GetParameters();
   ///@}
 
   ///@{

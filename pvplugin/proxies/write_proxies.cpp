@@ -62,6 +62,7 @@ std::string documentation(const Key& key) {
   std::string text(key.help);
   text[0] = char(std::toupper(text[0]));
   if (!key.unit.empty()) text += fmt::format("; unit: {}", key.unit);
+  if (key.name.empty()) text += "; all of them in one line, as in a = 3, b = -2";
   return fmt::format("{}. Allowed: {}. In scene files: {}.", text, allowed_text(key), key.label());
 }
 
@@ -134,7 +135,11 @@ struct FormOf {
   Form operator()(Member<std::string>) {
     return {"StringVectorProperty",
             setter(owner, key, "Text") + R"( number_of_elements="1" default_values="")",
-            R"(<FileListDomain name="files"/>)"};
+            key.name == "file" ? R"(<FileListDomain name="files"/>)" : ""};
+  }
+  Form operator()(Member<Parameters>) {
+    return {"StringVectorProperty",
+            setter(owner, key, "Text") + R"( number_of_elements="1" default_values="")"};
   }
   Form operator()(const Choice& choice) {
     Form form{"StringVectorProperty",

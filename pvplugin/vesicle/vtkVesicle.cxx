@@ -21,7 +21,7 @@ using lamella::Member;
 const lamella::Key* FindKey(std::string_view path)
 {
   const auto dot = path.find('.');
-  return dot == path.npos ? nullptr : lamella::find_key(path.substr(0, dot), path.substr(dot + 1));
+  return lamella::find_key(path.substr(0, dot), dot == path.npos ? "" : path.substr(dot + 1));
 }
 
 bool SetMember(lamella::Scene& scene, const lamella::Access& access, double value)
@@ -65,6 +65,11 @@ bool SetMember(lamella::PropertyScene& scene, const lamella::Key& key, const std
   if (const auto* text = std::get_if<Member<std::string>>(&key.access))
   {
     (*text)(scene) = value;
+    return true;
+  }
+  if (std::holds_alternative<Member<lamella::Parameters>>(key.access))
+  {
+    lamella::set_parameters(scene, value);
     return true;
   }
   if (std::holds_alternative<lamella::Choice>(key.access))

@@ -24,6 +24,7 @@ struct Setter
   void operator()(Member<int> n) const { property().Set(n(scene)); }
   void operator()(Member<bool> flag) const { property().Set(int(flag(scene))); }
   void operator()(Member<std::string> text) const { property().Set(text(scene).c_str()); }
+  void operator()(Member<Parameters>) const { property().Set(value_text(key, scene).c_str()); }
   void operator()(Member<Vec3> x) const { property().Set(x(scene).data(), 3); }
   void operator()(Member<std::array<int, 3>> n) const { property().Set(n(scene).data(), 3); }
   void operator()(const Choice& choice) const

@@ -1,7 +1,9 @@
 #include "dynamics/line_forces.h"
 
+#include "energy/text_line_density.h"
 #include "levelset/taylor.h"
 #include "parallel.h"
+#include "scene/densities.h"
 
 #include <Eigen/Cholesky>
 
@@ -96,11 +98,15 @@ struct Hats {
 
 } // namespace
 
-LineForces::LineForces(const Line& moduli, double spacing)
+LineForces::LineForces(const Line& moduli, const Parameters& parameters, double spacing)
     : exist_(sharp(moduli) != Line{}), h_(spacing),
       density_(std::make_shared<LinePolynomial>(sharp(moduli))),
       profile_(SmearedStep::of_line_forces(reach * spacing)),
-      of_couples_(SmearedStep::of_line_couples(reach * spacing)) {}
+      of_couples_(SmearedStep::of_line_couples(reach * spacing)) {
+  if (moduli.density.empty()) return;
+  text_ = std::make_shared<TextLineDensity>(moduli.density, names_on_line(parameters));
+  density_ = std::make_shared<LineSum>(density_, text_);
+}
 
 void LineForces::find(const PhaseBoundary& boundary, const LevelSet& phi) {
   const std::span<const BoundaryPoint> points = boundary.points();
@@ -247,7 +253,7 @@ void LineForces::find_stiffness() {
                  curved = p.B_perp - p.kn;
     along.stiffness = std::max(along.stiffness, g);
     along.tension =
-        std::max(along.tension, g * kg2 + 4 * n * tau2 + t * curved * curved +
+        std::max(along.tension, g * kg2 + 4 * n * tau2 + t * curved * curved + std::abs(l.l) +
                                     std::abs(l.tau_g * p.tau_g) + std::abs(l.kn * p.B_perp));
     across.stiffness = std::max(across.stiffness, 0.5 * n + 0.15 * t);
     across.tension = std::max(across.tension, g * (kn2 + 4 * tau2) + n * kg2 + 4 * t * kg2);

@@ -20,9 +20,10 @@ namespace lamella {
 /// are the variation of the energy, which does not feel the width of the strip to first order.
 class LineForces {
 public:
-  LineForces(const Line& moduli, double spacing);
+  /// `parameters`: of the density as text.
+  LineForces(const Line& moduli, const Parameters& parameters, double spacing);
 
-  /// Where all moduli are 0, all below is 0.
+  /// Where all moduli are 0 and there is no text, all below is 0.
   bool exist() const { return exist_; }
   /// Of the strip that forces are spread over.
   double half_width() const { return profile_.half_width(); }
@@ -30,6 +31,8 @@ public:
   void find(const PhaseBoundary& boundary, const LevelSet& phi);
   /// oint l dl of a part of the density, with the boundary as last found.
   double energy(const LineDensity& part, const PhaseBoundary& boundary) const;
+  /// The part that is given as text; null: none.
+  const LineDensity* text() const { return text_.get(); }
   /// Along n, per length.
   double along_boundary(std::size_t point) const { return along_n_[point]; }
   /// A sample in the strip, of which the foot is known.
@@ -60,7 +63,7 @@ private:
 
   bool exist_;
   double h_;
-  std::shared_ptr<const LineDensity> density_;
+  std::shared_ptr<const LineDensity> text_, density_;
   SmearedStep profile_, of_couples_;
   std::vector<CurveGeometry> ribbon_; // B_perp the mean of the strip
   std::vector<double> along_n_, along_N_, couple_;

@@ -45,8 +45,9 @@ PhaseIntegrals& PhaseIntegrals::operator+=(const PhaseIntegrals& o) {
 
 Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier)
     : h_(scene.grid().spacing), ld_(scene.ld), lo_(scene.lo),
-      curvature_start_time_(scene.curvature_start_time), line_(scene.line),
-      line_forces_(scene.line, h_), profiles_(StepProfiles::of_grid(h_)),
+      curvature_start_time_(scene.curvature_start_time), parameters_(scene.parameters),
+      line_(scene.line), line_forces_(scene.line, scene.parameters, h_),
+      profiles_(StepProfiles::of_grid(h_)),
       held_(scene.stretch.modulus > 0, scene.area.of == Of::each, h_), fit_(scene.grid(), fourier),
       psi_(scene.grid()) {
   std::vector<double> nodal(psi.size());
@@ -58,7 +59,7 @@ Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier
 SurfaceEnergy Phases::surface_energy(double time) const {
   SurfaceModuli ld = ld_, lo = lo_;
   if (!is_curved(time)) ld.spontaneous_curvature = lo.spontaneous_curvature = 0;
-  return {ld, lo, line_.geodesic_modulus, profiles_};
+  return {ld, lo, line_.geodesic_modulus, profiles_, parameters_};
 }
 
 double Phases::saturated(double s) const {
@@ -372,6 +373,8 @@ void Phases::find_line_energies(EnergyTerms& terms) const {
   find(Term::geodesic_square, &Line::geodesic_square_modulus);
   find(Term::normal_square, &Line::normal_square_modulus);
   find(Term::torsion_square, &Line::torsion_square_modulus);
+  if (const LineDensity* text = line_forces_.text())
+    terms[Term::line_density] = line_forces_.energy(*text, boundary_);
 }
 
 double Phases::least_radius() const {

@@ -141,6 +141,7 @@ private:
   double stiffness_ = 0; // of the boundary on a membrane at rest: force per length and displacement
   SurfaceModuli ld_, lo_;
   double curvature_start_time_;
+  Parameters parameters_;
   Line line_;
   LineForces line_forces_;
   StepProfiles profiles_;

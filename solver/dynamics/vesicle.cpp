@@ -49,8 +49,8 @@ double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::p
 Vesicle::Vesicle(const Scene& scene)
     : ld_(scene.has_phases() ? scene.ld : scene.membrane),
       lo_(scene.has_phases() ? scene.lo : scene.membrane),
-      energy_(scene.membrane), film_{scene.contact.disjoining_pressure,
-                                     scene.contact.disjoining_range},
+      energy_(scene.membrane, scene.parameters), film_{scene.contact.disjoining_pressure,
+                                                       scene.contact.disjoining_range},
       constraints_(scene), phi_(scene.grid()), band_(scene.grid(), band_half_width),
       extension_(scene.grid()),
       surface_(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside()),

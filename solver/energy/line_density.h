@@ -2,6 +2,8 @@
 #include "geometry/curve_geometry.h"
 #include "scene/scene.h"
 
+#include <memory>
+
 namespace lamella {
 
 /// Energy per length of the phase boundary, l(kg, kn, tau_g, B_perp), oint l dl (Eq. 6).
@@ -36,6 +38,22 @@ public:
 
 private:
   Line m_;
+};
+
+/// The sum of two.
+class LineSum : public LineDensity {
+public:
+  using Part = std::shared_ptr<const LineDensity>;
+
+  LineSum(Part a, Part b) : a_(std::move(a)), b_(std::move(b)) {}
+
+  Value at(const CurveGeometry& c) const override {
+    const Value a = a_->at(c), b = b_->at(c);
+    return {a.l + b.l, a.kg + b.kg, a.kn + b.kn, a.tau_g + b.tau_g, a.B_perp + b.B_perp};
+  }
+
+private:
+  Part a_, b_;
 };
 
 } // namespace lamella

@@ -2,7 +2,9 @@
 
 #include "energy/helfrich.h"
 #include "energy/monomial.h"
+#include "energy/text_density.h"
 #include "parallel.h"
+#include "scene/densities.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,12 +141,13 @@ double integral(const SurfaceGeometry& surface, std::span<const double> density,
 }
 } // namespace
 
-SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& membrane)
-    : SurfaceEnergy(membrane, membrane, 0, StepProfiles::of_grid(1)) {}
+SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& membrane, const Parameters& parameters)
+    : SurfaceEnergy(membrane, membrane, 0, StepProfiles::of_grid(1), parameters) {}
 
 /// With a line more there is one term more.
 SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo,
-                             double geodesic_modulus, const StepProfiles& profiles)
+                             double geodesic_modulus, const StepProfiles& profiles,
+                             const Parameters& parameters)
     : profiles_(profiles) {
   using M = SurfaceModuli;
   const auto both = [&](double M::*modulus, Profile profile) {
@@ -160,6 +163,8 @@ SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo,
   add_if<MixedQuartic>(both(&M::mixed_quartic_modulus, Profile::monotonic));
   add_if<GaussianSquare>(both(&M::gaussian_square_modulus, Profile::monotonic));
   add_if<Geodesic>({geodesic_modulus, 0, Profile::moments});
+  if (!ld.density.empty() || !lo.density.empty())
+    add(std::make_shared<TextDensity>(ld.density, lo.density, names_on_membrane(parameters)));
 }
 
 template <class Monomial>

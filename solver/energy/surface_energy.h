@@ -20,12 +20,12 @@ public:
     std::vector<SurfaceJet<double>> psi; ///< distance from the boundary, < 0 in Ld
   };
 
-  /// Nothing but the terms of a membrane of one phase.
-  explicit SurfaceEnergy(const SurfaceModuli& membrane);
+  /// Nothing but the terms of a membrane of one phase. `parameters`: of densities as text.
+  explicit SurfaceEnergy(const SurfaceModuli& membrane, const Parameters& parameters = {});
   /// Of two, with the profiles that moduli follow across the boundary. `geodesic_modulus`: of the
   /// boundary, which by Gauss and Bonnet is, but for a constant, a Gaussian modulus of Ld.
   SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo, double geodesic_modulus,
-                const StepProfiles& profiles);
+                const StepProfiles& profiles, const Parameters& parameters = {});
 
   /// One more.
   void add(std::shared_ptr<const SurfaceTerm> term);

@@ -147,6 +147,10 @@ toml::table parse_toml(std::string_view text, const std::string& source) {
   }
 }
 
+std::string Given::path() const {
+  return key->section.empty() ? name : fmt::format("{}.{}", key->section, name);
+}
+
 std::vector<Given> parse_document(std::string_view text, const std::string& source) {
   const auto table = std::make_shared<const toml::table>(parse_toml(text, source));
   std::vector<Given> given;
@@ -156,7 +160,11 @@ std::vector<Given> parse_document(std::string_view text, const std::string& sour
       refuse_scene(fmt::format("{}{}: this is a section; allowed: [{}], then its keys", place,
                                e.name, e.name));
     if (e.section.empty() && e.value->is_table()) refuse_section(place, e.name);
-    given.push_back({&known_key(place, e.section, e.name), {table, e.value}, place, false});
+    given.push_back({&known_key(place, e.section, e.name),
+                     std::string(e.name),
+                     {table, e.value},
+                     place,
+                     false});
   }
   if (given.empty())
     refuse_scene(source +
@@ -179,7 +187,8 @@ Given parse_override(const std::string& argument) {
 
   const std::size_t dot = path.find('.');
   const auto section = dot == path.npos ? std::string_view() : path.substr(0, dot);
-  const Key& key = known_key(place, section, dot == path.npos ? path : path.substr(dot + 1));
+  const std::string name(dot == path.npos ? path : path.substr(dot + 1));
+  const Key& key = known_key(place, section, name);
 
   refuse_rubbish(text, "--set " + shortened(argument));
   toml::table table;
@@ -194,7 +203,7 @@ Given parse_override(const std::string& argument) {
                              trouble, allowed_text(key)));
   if (table.size() != 1) table = toml::table{{"value", text}};
   const auto shared = std::make_shared<const toml::table>(std::move(table));
-  return {&key, {shared, shared->get("value")}, place, true};
+  return {&key, name, {shared, shared->get("value")}, place, true};
 }
 
 } // namespace lamella

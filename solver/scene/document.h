@@ -14,9 +14,12 @@ namespace lamella {
 /// One key as a scene or --set gives it.
 struct Given {
   const Key* key;
+  std::string name; ///< as it is given: the key's own, or any where the key has none
   std::shared_ptr<const toml::node> value;
   std::string place; ///< as messages begin: "file:12: "
   bool is_override;
+
+  std::string path() const; ///< as Key::path, with the name given
 };
 
 /// A scene's text, at most 1 MiB. Throws SceneError.

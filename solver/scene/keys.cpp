@@ -55,6 +55,8 @@ std::vector<Key> moduli(std::string_view name, const std::vector<std::string_vie
        "energy length²", any, cases, "of K_M² K"},
       {name, "gaussian_square_modulus", member<section, &M::gaussian_square_modulus>(),
        "energy length²", any, cases, "of K²"},
+      {name, "density", member<section, &M::density>(), "energy/length²", any, cases,
+       "one more energy per area, a formula of KM and K", "none"},
   };
   // clang-format on
 }
@@ -168,6 +170,11 @@ std::vector<Key> make_keys() {
        "κ_B: energy per length and curvature B_perp of the membrane across the boundary"},
       {"line", "drag", member<&Scene::line, &Line::drag>(), "length", not_negative, two_phases,
        "drag of the phase boundary along the membrane, per length, over that of the membrane, per area; 0 stands for the radius of the sphere of the vesicle's area"},
+      {"line", "density", member<&Scene::line, &Line::density>(), "energy/length", any, two_phases,
+       "one more energy per length, a formula of kg, kn and tau_g", "none"},
+
+      {"parameters", "", member<&Scene::parameters>(), "", any, {},
+       "a number that densities call by this name", "none"},
 
       {"stretch", "modulus", member<&Scene::stretch, &Stretch::modulus>(), "energy/length²",
        not_negative, {},
@@ -280,10 +287,11 @@ bool Range::contains(double x) const {
 }
 
 std::string Key::path() const {
-  return fmt::format("{}{}{}", section, section.empty() ? "" : ".", name);
+  return fmt::format("{}{}{}", section, section.empty() || name.empty() ? "" : ".", name);
 }
 
 std::string Key::label() const {
+  if (name.empty()) return fmt::format("[{}]", section);
   return section.empty() ? std::string(name) : fmt::format("[{}] {}", section, name);
 }
 
@@ -313,8 +321,9 @@ std::vector<std::string_view> keys_of_section(std::string_view section) {
 }
 
 const Key* find_key(std::string_view section, std::string_view name) {
-  const auto key = std::ranges::find_if(
-      scene_keys(), [&](const Key& k) { return k.section == section && k.name == name; });
+  const auto key = std::ranges::find_if(scene_keys(), [&](const Key& k) {
+    return k.section == section && (k.name == name || k.name.empty());
+  });
   return key == scene_keys().end() ? nullptr : &*key;
 }
 
@@ -351,6 +360,12 @@ std::string value_text(const Key& key, Scene scene) {
             return fmt::format("[{}]", fmt::join(list(scene), ", "));
           },
           [&](Member<std::vector<Vec3>> list) { return fmt::format("{}", list(scene)); },
+          [&](Member<Parameters> numbers) {
+            std::vector<std::string> all;
+            for (const auto& [name, number] : numbers(scene))
+              all.push_back(fmt::format("{} = {}", name, number));
+            return fmt::format("{}", fmt::join(all, ", "));
+          },
           [&](const Choice& choice) { return lamella::quoted(choice.names.at(choice.get(scene))); },
           [&](auto scalar) { return fmt::to_string(scalar(scene)); },
       },
@@ -362,6 +377,7 @@ std::string allowed_text(const Key& key) {
       Overloaded{
           [&](Member<double>) { return "a number " + range_text(key.range); },
           [&](Member<int>) { return integer_text(key.range); },
+          [&](Member<Parameters>) { return "a number " + range_text(key.range); },
           [&](Member<bool>) { return std::string("true or false"); },
           [&](Member<std::string>) { return std::string("a text in quotes"); },
           [&](Member<Vec3>) { return "three numbers [x, y, z] " + range_text(key.range); },

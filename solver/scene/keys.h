@@ -23,7 +23,7 @@ struct Choice {
 
 using Access = std::variant<Member<double>, Member<int>, Member<bool>, Member<std::string>,
                             Member<Vec3>, Member<std::array<int, 3>>, Member<std::vector<double>>,
-                            Member<std::vector<Vec3>>, Choice>;
+                            Member<std::vector<Vec3>>, Member<Parameters>, Choice>;
 
 /// Allowed numbers, for vectors and lists each of them. What is not finite is never allowed.
 struct Range {
@@ -38,7 +38,7 @@ struct Range {
 
 /// One parameter of a scene: all that reading, writing, checking and documenting it needs.
 struct Key {
-  std::string_view section, name;
+  std::string_view section, name; ///< no name: the section's keys have any
   Access access;
   std::string_view unit;
   Range range;
@@ -59,7 +59,7 @@ std::span<const Key> scene_keys();
 std::vector<std::string_view> scene_sections();
 std::vector<std::string_view> keys_of_section(std::string_view section);
 
-/// Null for an unknown key.
+/// The key of this name, or the one for any name; null for an unknown key.
 const Key* find_key(std::string_view section, std::string_view name);
 
 /// The key whose value decides which keys of a section count, if not all do: one of its own, such

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,6 +54,7 @@ struct SurfaceModuli {
   double quartic_modulus = 0;         ///< of K_M^4: energy length^2
   double mixed_quartic_modulus = 0;   ///< of K_M^2 K: energy length^2
   double gaussian_square_modulus = 0; ///< of K^2: energy length^2
+  std::string density{}; ///< formula of one more density, see scene/densities.h; empty: none
 
   bool operator==(const SurfaceModuli&) const = default;
 };
@@ -89,9 +91,13 @@ struct Line {
   /// Of the boundary along the membrane, per length, over that of the membrane per area: a length.
   /// 0: the radius of the sphere of the vesicle's area.
   double drag = 0;
+  std::string density{}; ///< formula of one more density, see scene/densities.h; empty: none
 
   bool operator==(const Line&) const = default;
 };
+
+/// Named numbers of formulas.
+using Parameters = std::map<std::string, double>;
 
 /// Local incompressibility: a field c of the lipid per area over its rest value, with the energy
 /// modulus / 2 int [(1 - c)^2 + (1 - 1 / c)^2] dA. modulus 0: there is no such field.
@@ -197,6 +203,7 @@ struct Scene {
   Line line;            ///< with domains
   /// With domains: spontaneous curvatures are 0 until then.
   double curvature_start_time = 0;
+  Parameters parameters; ///< of the densities
   Stretch stretch;
   VolumeConstraint volume;
   AreaConstraint area;

@@ -99,6 +99,10 @@ public:
     if (!assign_nodes(member(scene_), *given_.value)) refuse("does not fit");
   }
 
+  void operator()(Member<Parameters> member) const {
+    if (!assign(member(scene_)[given_.name], *given_.value)) refuse("does not fit");
+  }
+
   void operator()(const Choice& choice) const {
     const auto* text = given_.value->as_string();
     if (!text) refuse("does not fit");
@@ -110,7 +114,10 @@ public:
 
 private:
   [[noreturn]] void refuse(std::string_view what, const std::string& hint = {}) const {
-    refuse_scene(fmt::format("{}{}: {} {}; allowed: {}{}", given_.place, given_.key->label(),
+    const std::string label = given_.key->name.empty() ? fmt::format("[{}] {}", given_.key->section,
+                                                                     shortened(given_.name))
+                                                       : given_.key->label();
+    refuse_scene(fmt::format("{}{}: {} {}; allowed: {}{}", given_.place, label,
                              described(*given_.value), what, allowed_text(*given_.key), hint));
   }
 
@@ -171,9 +178,18 @@ KeyLocator locator(const std::vector<Given>& given, const std::string& source) {
     for (const bool want_override : {true, false})
       for (const auto key : keys)
         for (auto g = given.rbegin(); g != given.rend(); ++g)
-          if (g->is_override == want_override && g->key->path() == key) return {key, g->place};
+          if (g->is_override == want_override && g->path() == key) return {key, g->place};
     return {keys.front(), source + ": "};
   };
+}
+
+/// Lines of a scene that give a key; none for a key of any name that is given no number.
+std::vector<std::string> settings(const Key& key, const Scene& scene) {
+  if (!key.name.empty()) return {fmt::format("{} = {}", key.name, value_text(key, scene))};
+  std::vector<std::string> lines;
+  for (const auto& [name, number] : scene.parameters)
+    lines.push_back(fmt::format("{} = {}", name, number));
+  return lines;
 }
 
 std::string unit_note(const Key& key) {
@@ -196,14 +212,31 @@ Scene parse_scene(std::string_view text, const std::string& source_name,
   return scene;
 }
 
+Parameters parse_parameters(std::string_view text) {
+  const std::string what = fmt::format("[parameters]: \"{}\"", shortened(text));
+  Parameters numbers;
+  const toml::table table = parse_toml(fmt::format("all = {{{}}}", text), what);
+  if (table.size() > 1)
+    refuse_scene(what + ": not numbers; allowed: numbers such as a = 3, b = -2");
+  for (const auto& [name, value] : *table["all"].as_table()) {
+    if (!value.is_number())
+      refuse_scene(fmt::format("{}: {} is no number; allowed: numbers such as a = 3, b = -2", what,
+                               shortened(name.str())));
+    numbers[std::string(name.str())] = *value.value<double>();
+  }
+  return numbers;
+}
+
 std::string to_toml(const Scene& scene) {
   std::string text;
   std::string_view section;
   for (const Key& key : scene_keys()) {
     if (!key.counts_in(scene)) continue;
-    if (key.section != section) text += fmt::format("\n[{}]\n", section = key.section);
-    const std::string setting = fmt::format("{} = {}", key.name, value_text(key, scene));
-    text += fmt::format("{:<36} # {}{}\n", setting, key.help, unit_note(key));
+    const std::vector<std::string> lines = settings(key, scene);
+    if (key.section != section && !lines.empty())
+      text += fmt::format("\n[{}]\n", section = key.section);
+    for (const std::string& setting : lines)
+      text += fmt::format("{:<36} # {}{}\n", setting, key.help, unit_note(key));
   }
   return text;
 }
@@ -225,7 +258,8 @@ std::string describe_keys() {
       const std::string fallback = key.fallback.empty()
                                        ? fmt::format("`{}`", value_text(key, Scene{}))
                                        : std::string(key.fallback);
-      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, allowed_text(key), key.unit,
+      const std::string name = key.name.empty() ? "any name" : fmt::format("`{}`", key.name);
+      text += fmt::format("| {} | {} | {} | {} | {}{} |\n", name, allowed_text(key), key.unit,
                           fallback, of_case, key.help);
     }
   }

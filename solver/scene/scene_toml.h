@@ -25,6 +25,9 @@ Scene parse_scene(std::string_view text, const std::string& source_name,
 /// The whole scene with every value that counts, commented; parse_scene gives back an equal scene.
 std::string to_toml(const Scene& scene);
 
+/// Parameters in one line, such as "a = 3, b = -2". Throws SceneError.
+Parameters parse_parameters(std::string_view text);
+
 /// All sections and keys as Markdown tables (the reference part of docs/scene-format.md).
 std::string describe_keys();
 

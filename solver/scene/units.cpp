@@ -1,6 +1,9 @@
 #include "scene/units.h"
 
+#include "expression/formula_text.h"
 #include "scene/keys.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +12,8 @@
 namespace lamella {
 
 namespace {
+
+constexpr std::string_view curvatures[]{"KM", "K", "kg", "kn", "tau_g"}; ///< that densities are of
 
 Dimension of_word(std::string_view word) {
   return {word == "length", word == "energy", word == "time"};
@@ -35,6 +40,18 @@ Dimension of_product(std::string_view product) {
   return sum;
 }
 
+/// A density with a factor, of curvatures in other units.
+std::string density_in_units(std::string_view text, const UnitChange& change, double factor) {
+  if (text.empty()) return "";
+  std::string changed;
+  for (const Token& token : FormulaText(text).tokens()) {
+    const bool is_variable = std::ranges::count(curvatures, token.text) > 0;
+    const double by = change.factor(token.text == "K" ? "length²" : "length");
+    changed += is_variable ? fmt::format("({}*{})", by, token.text) : fmt::format("{}", token.text);
+  }
+  return fmt::format("{}*({})", factor, changed);
+}
+
 } // namespace
 
 Dimension dimension_of(std::string_view unit) {
@@ -56,6 +73,8 @@ Scene in_units(Scene scene, const UnitChange& change) {
     if (const auto* number = std::get_if<Member<double>>(&key.access)) (*number)(scene) *= factor;
     if (const auto* vector = std::get_if<Member<Vec3>>(&key.access))
       for (double& x : (*vector)(scene)) x *= factor;
+    if (const auto* text = std::get_if<Member<std::string>>(&key.access))
+      (*text)(scene) = density_in_units((*text)(scene), change, factor);
     if (const auto* list = std::get_if<Member<std::vector<double>>>(&key.access))
       for (double& x : (*list)(scene)) x *= factor;
   }

@@ -1,5 +1,6 @@
 #include "error.h"
 #include "scene/bulge.h"
+#include "scene/densities.h"
 #include "scene/domains.h"
 #include "scene/keys.h"
 #include "scene/perturbation.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace lamella {
 namespace {
@@ -60,6 +62,7 @@ public:
     } else {
       quartic_moduli("membrane", scene_.membrane);
     }
+    densities();
     pressure();
     if (scene_.shape.kind == ShapeKind::sphere) sphere_can_leave();
     if (scene_.has_phases()) {
@@ -109,11 +112,14 @@ private:
     if (const auto* list = std::get_if<Member<std::vector<Vec3>>>(&key.access))
       for (const Vec3& vector : (*list)(scene))
         for (const double x : vector) in_range(key, x);
+    if (const auto* numbers = std::get_if<Member<Parameters>>(&key.access))
+      for (const auto& [name, x] : (*numbers)(scene)) in_range(key, x, "." + name);
     if (const auto* nodes = std::get_if<Member<std::array<int, 3>>>(&key.access))
       for (const int n : (*nodes)(scene)) in_range(key, n);
   }
 
-  void in_range(const Key& key, double x) const {
+  /// `name`: that of one among a key's numbers, ".name".
+  void in_range(const Key& key, double x, const std::string& name = "") const {
     if (key.range.contains(x)) return;
     std::string why = "is out of range";
     if (!std::isfinite(x))
@@ -126,7 +132,8 @@ private:
       why = "is more than the sphere's 1, which no closed surface exceeds";
     else if (key.name.ends_with("_square_modulus") && x < 0)
       why = "leaves the energy without a lower bound";
-    refuse({key.path()}, fmt::format("{} {}; allowed: {}", x, why, allowed_text(key)));
+    const std::string path = key.path() + name;
+    refuse({path}, fmt::format("{} {}; allowed: {}", x, why, allowed_text(key)));
   }
 
   /// What else a stored state must be is known once it is read.
@@ -471,6 +478,31 @@ private:
     double c = scene_.membrane.spontaneous_curvature;
     if (a.constraint == Constraint::free) c -= a.multiplier / (2 * scene_.membrane.bending_modulus);
     spontaneous_curvature(c, {"membrane.spontaneous_curvature", "area_difference.multiplier"});
+  }
+
+  static std::string path_of(const std::string& parameter) { return "parameters." + parameter; }
+
+  /// Every density is a formula, and every parameter is part of one.
+  void densities() const {
+    for (const auto& [name, value] : scene_.parameters)
+      if (!is_parameter_name(name))
+        refuse({path_of(name)},
+               "cannot name a number; allowed: letters, digits and _, a letter first, but nothing "
+               "that formulas have a meaning for");
+    std::set<std::string> used;
+    for (const Density& density : densities_of(scene_)) {
+      try {
+        used.merge(read_formula(density.text, density.names).names);
+      } catch (const FormulaError& e) {
+        refuse({density.key}, e.what());
+      }
+    }
+    for (const auto& [name, value] : scene_.parameters)
+      if (!used.contains(name))
+        refuse(
+            {path_of(name)},
+            "no density speaks of it; allowed: numbers that density in [membrane], [ld], [lo] or "
+            "[line] speaks of");
   }
 
   void spontaneous_curvature(double c, const Keys& keys) const {

@@ -72,6 +72,14 @@ class Runs(unittest.TestCase):
         self.assertGreater(numpy.abs(frames[2].phi - frames[0].phi).max(), 1e-3)
         self.assertEqual(run[1].measures, frames[1].measures)
 
+    def test_density_as_text(self):
+        parameters = {"a": numpy.float64(0.25)}
+        energy, twice = (lamella.run({**SCENE, **more})[0].measures["energy"] for more in (
+            {}, {"membrane": {"density": "2*a*KM^2"}, "parameters": parameters}))
+        self.assertAlmostEqual(twice, 2 * energy, 9)
+        self.assertRaisesRegex(lamella.Error, r"\[membrane\] density: column 1: unknown name KN", lamella.run,
+                               {"membrane": {"density": "KN^2"}})
+
     def test_any_time(self):
         run = lamella.run(SCENE)
         frame = run.at(7e-5)

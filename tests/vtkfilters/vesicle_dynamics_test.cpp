@@ -13,6 +13,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <sstream>
 
 namespace lamella {
@@ -59,6 +60,26 @@ TEST(VesicleDynamics, OffersTheTimesOfItsStoredStates) {
     for (int n = 0; n < 5; ++n) EXPECT_DOUBLE_EQ(info->Get(Pipeline::TIME_STEPS())[n], end * n / 4);
     EXPECT_EQ(info->Get(Pipeline::TIME_RANGE())[1], end);
   }
+}
+
+TEST(VesicleDynamics, TakesADensityAsText) {
+  const auto dynamics = dynamics_of(start()), plain = dynamics_of(start());
+  dynamics->SetDensity("a*KM^2 + b*K");
+  dynamics->SetParameters("a = 0.25, b = -1.5");
+  EXPECT_EQ(dynamics->GetParameters(), std::string("a = 0.25, b = -1.5"));
+  dynamics->Update();
+  plain->Update();
+  const double bending = field(plain, "energy"), pi = std::numbers::pi;
+  EXPECT_NEAR(field(dynamics, "energy"), 1.5 * bending - 1.5 * 4 * pi, 0.01 * bending);
+
+  dynamics->SetParameters("a = 0.25, b = c");
+  EXPECT_THAT(error_of(dynamics), HasSubstr("[parameters]: \"a = 0.25, b = c\""));
+  dynamics->SetParameters("a = 0.25");
+  EXPECT_THAT(error_of(dynamics), HasSubstr("[membrane] density: column 10: unknown name b"));
+  dynamics->SetDensity(nullptr);
+  EXPECT_THAT(error_of(dynamics), HasSubstr("[parameters] a: no density speaks of it"));
+  dynamics->SetParameters("");
+  EXPECT_EQ(error_of(dynamics), "");
 }
 
 TEST(VesicleDynamics, LowersTheEnergyAtFixedVolumeAndArea) {

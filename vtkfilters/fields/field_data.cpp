@@ -2,6 +2,7 @@
 
 #include "fields/start_image.h"
 #include "scene/keys.h"
+#include "scene/scene_toml.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkStringArray.h>
 
 namespace lamella {
 namespace {
@@ -19,11 +21,11 @@ bool has_stretch(const Scene& scene) { return scene.stretch.modulus > 0; }
 bool has_films(const Scene& scene) { return scene.contact.disjoining_pressure > 0; }
 
 /// Parameters that forces depend on, by how their paths begin, and in which scenes they act.
-struct Parameters {
+struct ForceKeys {
   std::string_view begin;
   bool (*act)(const Scene&);
 };
-constexpr Parameters parameters[] = {
+constexpr ForceKeys force_keys[] = {
     {"membrane.", has_one_phase},
     {"ld.", has_phases},
     {"lo.", has_phases},
@@ -33,16 +35,31 @@ constexpr Parameters parameters[] = {
     {"contact.disjoining_", has_films},
 };
 
-/// Calls with the path, the parameter of the scene, and whether it acts there.
-template <class Action>
+/// Calls with the path, the parameter of the scene if it is a T, and whether it acts there.
+template <class T, class Action>
 void for_each_parameter(Scene& scene, Action&& action) {
   for (const Key& key : scene_keys()) {
     const std::string path = fmt::format("{}.{}", key.section, key.name);
-    for (const Parameters& some : parameters)
+    for (const ForceKeys& some : force_keys)
       if (path.starts_with(some.begin))
-        if (const auto* number = std::get_if<Member<double>>(&key.access))
-          action(path, (*number)(scene), some.act(scene));
+        if (const auto* member = std::get_if<Member<T>>(&key.access))
+          action(path, (*member)(scene), some.act(scene));
   }
+}
+
+constexpr const char* named_numbers = "parameters";
+
+std::string field_text(vtkDataObject& data, const std::string& name) {
+  auto* array = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray(name.c_str()));
+  return array && array->GetNumberOfValues() == 1 ? std::string(array->GetValue(0)) : "";
+}
+
+void set_field_text(vtkDataObject& data, const std::string& name, const std::string& text) {
+  if (text.empty()) return;
+  vtkNew<vtkStringArray> array;
+  array->SetName(name.c_str());
+  array->InsertNextValue(text);
+  data.GetFieldData()->AddArray(array);
 }
 
 } // namespace
@@ -62,17 +79,26 @@ void set_field_value(vtkDataObject& data, const std::string& name, double value)
 
 void set_forces(vtkDataObject& data, const Scene& scene) {
   Scene copy = scene;
-  for_each_parameter(copy, [&](const std::string& path, double value, bool acts) {
+  for_each_parameter<double>(copy, [&](const std::string& path, double value, bool acts) {
     if (acts) set_field_value(data, path, value);
   });
+  for_each_parameter<std::string>(copy,
+                                  [&](const std::string& path, const std::string& text, bool acts) {
+                                    if (acts) set_field_text(data, path, text);
+                                  });
+  set_field_text(data, named_numbers, value_text(*find_key(named_numbers, ""), scene));
 }
 
 Scene forces_of(vtkDataObject& data, const Frame& frame, const SurfaceModuli& otherwise) {
   Scene scene = with_start({}, frame.grid, !frame.psi.empty());
   scene.membrane = scene.ld = scene.lo = otherwise;
-  for_each_parameter(scene, [&](const std::string& path, double& value, bool) {
+  for_each_parameter<double>(scene, [&](const std::string& path, double& value, bool) {
     value = field_value(data, path).value_or(value);
   });
+  for_each_parameter<std::string>(scene, [&](const std::string& path, std::string& text, bool) {
+    text = field_text(data, path);
+  });
+  scene.parameters = parse_parameters(field_text(data, named_numbers));
   return scene;
 }
 

@@ -10,14 +10,14 @@
 
 namespace lamella {
 
-/// Field data of one number: parameters of a scene by their path ("membrane.bending_modulus"),
-/// measures of a state by their column in the history ("sigma").
+/// Field data of one number or text: parameters of a scene by their path
+/// ("membrane.bending_modulus"), measures of a state by their column in the history ("sigma").
 std::optional<double> field_value(vtkDataObject& data, const std::string& name);
 void set_field_value(vtkDataObject& data, const std::string& name, double value);
 
 /// Writes the parameters of a scene that its forces depend on, those that act; and reads them
 /// again, into a scene that has the grid and phases of a frame, with the given moduli where the
-/// field data says nothing.
+/// field data says nothing. Throws SceneError for named numbers that are none.
 void set_forces(vtkDataObject& data, const Scene& scene);
 Scene forces_of(vtkDataObject& data, const Frame& frame, const SurfaceModuli& otherwise);
 

@@ -120,7 +120,7 @@ std::vector<Size> sizes_of(const Frame& frame, const std::vector<int>& nearest, 
 }
 
 ShapeMeasures measure(const Frame& frame, const Scene& forces) {
-  SurfaceEnergy energy(forces.membrane);
+  SurfaceEnergy energy(forces.membrane, forces.parameters);
   const Sampled membrane(frame, energy.needs());
   const SurfaceGeometry& surface = membrane.surface;
   std::vector<double> variation(surface.size());

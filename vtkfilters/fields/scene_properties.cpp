@@ -1,7 +1,9 @@
 #include "fields/scene_properties.h"
 
+#include "error.h"
 #include "fields/image.h"
 #include "nearest.h"
+#include "scene/scene_toml.h"
 
 #include <fmt/format.h>
 
@@ -31,7 +33,19 @@ bool set_choice(PropertyScene& scene, const Key& key, std::string_view value) {
   return true;
 }
 
+bool set_parameters(PropertyScene& scene, std::string_view text) {
+  if (text == scene.parameters_text) return false;
+  scene.parameters_text = text;
+  try {
+    scene.parameters = parse_parameters(text);
+  } catch (const SceneError&) { // refused where they are used
+    scene.parameters.clear();
+  }
+  return true;
+}
+
 void check_choices(const PropertyScene& scene) {
+  parse_parameters(scene.parameters_text);
   for (const auto& [key, value] : scene.unknown)
     throw InputError(fmt::format("{}: \"{}\" is not available; allowed: {}{}", key->label(), value,
                                  allowed_text(*key),

@@ -14,13 +14,17 @@ namespace lamella {
 /// be out of its range; that is refused where the scene is used.
 struct PropertyScene : Scene {
   std::map<const Key*, std::string> unknown; ///< such names
+  std::string parameters_text;               ///< as the parameters were set
 };
 
 /// The value by name of a parameter that has a choice, such as kind in [shape].
 const char* choice_of(const PropertyScene& scene, std::string_view section, std::string_view key);
 /// Whether that changed anything.
 bool set_choice(PropertyScene& scene, const Key& key, std::string_view value);
-/// Throws InputError for a name that there is not, with those there are.
+/// Parameters as "a = 3, b = -2"; whether that changed anything.
+bool set_parameters(PropertyScene& scene, std::string_view text);
+/// Throws InputError for a name that there is not, with those there are, and SceneError for
+/// parameters that are no numbers.
 void check_choices(const PropertyScene& scene);
 
 /// The parameters of some sections that count, a line each.
@@ -58,6 +62,15 @@ void remove_targets(Ramp& ramp);
     if (lamella::set_choice(*this->Scene, choice, value ? value : "")) this->Modified();           \
   }                                                                                                \
   const char* cls::Get##name() { return lamella::choice_of(*this->Scene, section, key); }
+
+#define lamellaTextProperty(cls, name, member)                                                     \
+  void cls::Set##name(const char* value) {                                                         \
+    const std::string text(value ? value : "");                                                    \
+    if (this->Scene->member == text) return;                                                       \
+    this->Scene->member = text;                                                                    \
+    this->Modified();                                                                              \
+  }                                                                                                \
+  const char* cls::Get##name() { return this->Scene->member.c_str(); }
 
 #define lamellaRampProperty(cls, name, member)                                                     \
   void cls::Add##name##Target(double target, double start_time) {                                  \

@@ -21,7 +21,7 @@ std::vector<double> bulk_variation(const Scene& scene, const SurfaceGeometry& su
                                    std::span<const double> share_Ld) {
   const auto of = [&](const SurfaceModuli& moduli) {
     std::vector<double> F(surface.size());
-    SurfaceEnergy(moduli).find_forces(surface, {}, {}, F);
+    SurfaceEnergy(moduli, scene.parameters).find_forces(surface, {}, {}, F);
     return F;
   };
   if (!scene.has_phases()) return of(scene.membrane);
@@ -33,9 +33,11 @@ std::vector<double> bulk_variation(const Scene& scene, const SurfaceGeometry& su
 }
 
 Derivatives derivatives_for(const Scene& scene) {
-  if (!scene.has_phases()) return SurfaceEnergy(scene.membrane).needs();
-  return std::max(
-      {Derivatives::gradient, SurfaceEnergy(scene.ld).needs(), SurfaceEnergy(scene.lo).needs()});
+  const auto needs = [&](const SurfaceModuli& moduli) {
+    return SurfaceEnergy(moduli, scene.parameters).needs();
+  };
+  if (!scene.has_phases()) return needs(scene.membrane);
+  return std::max({Derivatives::gradient, needs(scene.ld), needs(scene.lo)});
 }
 
 bool has_surface_energy_only(const Scene& scene) {
