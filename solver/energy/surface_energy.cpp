@@ -1,6 +1,7 @@
 #include "energy/surface_energy.h"
 
 #include "energy/helfrich.h"
+#include "energy/linear.h"
 #include "energy/monomial.h"
 #include "energy/text_density.h"
 #include "parallel.h"
@@ -15,7 +16,7 @@ namespace lamella {
 namespace {
 constexpr std::size_t lanes = 8, samples_per_task = 2048, strip_per_task = 256;
 
-using Linear = Monomial<Term::linear, 1, 0>;
+using UniformLinear = Monomial<Term::linear, 1, 0>;
 using Gaussian = Monomial<Term::gaussian, 0, 1>;
 using Cubic = Monomial<Term::cubic, 3, 0>;
 using MixedCubic = Monomial<Term::mixed_cubic, 1, 1>;
@@ -155,7 +156,10 @@ SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo,
   };
   add(std::make_shared<Helfrich>(both(&M::bending_modulus, Profile::compliance),
                                  both(&M::spontaneous_curvature, Profile::accurate)));
-  add_if<Linear>(both(&M::linear_modulus, Profile::accurate));
+  if (ld.linear_modulus != lo.linear_modulus)
+    add(std::make_shared<Linear>(ld, lo));
+  else
+    add_if<UniformLinear>(both(&M::linear_modulus, Profile::accurate));
   add_if<Gaussian>(both(&M::gaussian_modulus, Profile::moments));
   add_if<Cubic>(both(&M::cubic_modulus, Profile::monotonic));
   add_if<MixedCubic>(both(&M::mixed_cubic_modulus, Profile::moments));

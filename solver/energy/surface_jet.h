@@ -156,6 +156,13 @@ operator*(const C& c, const Dual<T>& a) { return {c * a.f, c * a.d}; }
 template <class T, class C>
 requires std::convertible_to<const C&, const T&> Dual<T>
 operator-(const Dual<T>& a, const C& c) { return {a.f - c, a.d}; }
+template <class T, class C>
+requires std::convertible_to<const C&, const T&> Dual<T>
+operator+(const Dual<T>& a, const C& c) { return {a.f + c, a.d}; }
+template <class T>
+Dual<Dual<T>> operator+(const Dual<Dual<T>>& a, const T& c) {
+  return {a.f + c, a.d};
+}
 template <class T>
 Dual<Dual<T>> operator*(const T& c, const Dual<Dual<T>>& a) {
   return {c * a.f, c * a.d};
