@@ -30,13 +30,13 @@ Line sharp(Line moduli) {
 }
 
 /// Second derivative of l by one of the curvatures.
-double second(const LineDensity& density, CurveGeometry c, double CurveGeometry::*curvature,
+double second(const LineDensity& density, const CurveGeometry& c, double CurveGeometry::*curvature,
               double LineDensity::Value::*derivative) {
-  const double at = c.*curvature, e = 1e-4 * (1 + std::abs(at));
-  c.*curvature = at + e;
-  const double after = density.at(c).*derivative;
-  c.*curvature = at - e;
-  return (after - density.at(c).*derivative) / (2 * e);
+  const double e = 1e-4 * (1 + std::abs(c.*curvature));
+  CurveGeometry before = c, after = c;
+  before.*curvature -= e;
+  after.*curvature += e;
+  return (density.at(after).*derivative - density.at(before).*derivative) / (2 * e);
 }
 
 /// A point on its way along a geodesic that leaves the boundary at a right angle.
