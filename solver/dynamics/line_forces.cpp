@@ -236,11 +236,9 @@ void LineForces::balance(const PhaseBoundary& boundary, std::size_t curve,
     each(m, [&](int a, double of_a) { variation[m.place] += m.bell * of_a * factors[a]; });
 }
 
-/// By what a wave v of the boundary and w of the membrane changes the curvatures most: kg by d_s^2
-/// v
-/// + kn d_n w - 2 tau_g d_s w, kn by d_s^2 w - kg d_n w + 2 tau_g d_s v, tau_g by d_s d_n w +
-/// (B_perp
-/// - kn) d_s v + 2 kg d_s w.
+/// By what a wave v of the boundary and w of the membrane changes the curvatures most:
+///   kg by d_s^2 v + kn d_n w - 2 tau_g d_s w,  kn by d_s^2 w - kg d_n w + 2 tau_g d_s v,
+///   tau_g by d_s d_n w + (B_perp - kn) d_s v + 2 kg d_s w.
 void LineForces::find_stiffness() {
   Stiffness along, across;
   for (const CurveGeometry& p : ribbon_) {

@@ -110,8 +110,6 @@ public:
   /// Spontaneous curvatures are 0 before.
   double curvature_start_time() const { return curvature_start_time_; }
   bool is_curved(double time) const { return time >= curvature_start_time_ * (1 - 1e-12); }
-  const SurfaceModuli& ld() const { return ld_; }
-  const SurfaceModuli& lo() const { return lo_; }
   /// Of both phases.
   SurfaceEnergy surface_energy(double time) const;
 

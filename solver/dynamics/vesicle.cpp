@@ -365,7 +365,6 @@ void Vesicle::integrate_all(bool with_forces) {
   if (phases_ && !with_forces) phases_->sample(band_, surface_, components_);
   of_each_.clear();
   integrals_ = {};
-  phase_integrals_ = {};
   lengths_.setZero(components_.count());
   for (int k = 0; k < components_.count(); k++) {
     const Samples samples = components_.samples(k);
@@ -376,7 +375,6 @@ void Vesicle::integrate_all(bool with_forces) {
       of.gram.row(with_boundary) = p.gram.transpose();
       of.gram.col(with_boundary) = p.gram;
       lengths_[k] = p.length;
-      phase_integrals_ += p;
     }
     integrals_ += of;
   }

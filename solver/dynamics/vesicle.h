@@ -175,7 +175,6 @@ private:
   std::vector<SurfaceIntegrals> of_each_;
   Eigen::VectorXd lengths_; // of the phase boundary of each vesicle
   Multipliers multipliers_ = Multipliers::Zero(4, 1);
-  PhaseIntegrals phase_integrals_;
   std::array<Direction, directions> directions_;
   State origin_;                  // of the last measurement
   bool delicate_ = false;         // the constraints, as last seen

@@ -298,7 +298,7 @@ Univariate SurfaceEnergy::across(double psi, double KM, double K) const {
 void SurfaceEnergy::find_energies(const SurfaceGeometry& surface, EnergyTerms& terms) const {
   for (std::size_t t = 0; t < terms_.size(); t++) {
     std::optional<double>& energy = terms[terms_[t]->term()];
-    energy = (t > 0 && energy ? *energy : 0) + integral(surface, density_[t], {});
+    energy = energy.value_or(0) + integral(surface, density_[t], {});
   }
 }
 

@@ -55,9 +55,9 @@ public:
   /// Energy density of a membrane of one phase at a point.
   double density(double KM, double K) const;
 
-  /// Sets the energies of the terms; with phases also the bending energy of Ld, whose share of the
-  /// samples is given.
+  /// Adds the energies of the terms to those that are there.
   void find_energies(const SurfaceGeometry& surface, EnergyTerms& terms) const;
+  /// Of the Ld phase, whose share of the samples is given.
   double bending_Ld(const SurfaceGeometry& surface, std::span<const double> share) const;
 
 private:

@@ -209,7 +209,6 @@ N constant(double value) {
 
 /// The number in its simplest form.
 inline const Lanes& value_of(const Lanes& a) { return a; }
-inline double value_of(double a) { return a; }
 inline double value_of(const Univariate& a) { return a.f; }
 inline const Lanes& value_of(const AffineJet& a) { return a.f; }
 template <class T>

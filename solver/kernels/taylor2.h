@@ -31,34 +31,30 @@ LAMELLA_INLINE Taylor2 operator*(const Taylor2& a, const Taylor2& b) {
           a.yz * b.f + a.y * b.z + a.z * b.y + a.f * b.yz};
 }
 
+/// h(s), from h and its first two derivatives at s.f.
+LAMELLA_INLINE Taylor2 composed(V8 h, V8 h1, V8 h2, const Taylor2& s) {
+  return {h,
+          h1 * s.x,
+          h1 * s.y,
+          h1 * s.z,
+          h1 * s.xx + h2 * s.x * s.x,
+          h1 * s.yy + h2 * s.y * s.y,
+          h1 * s.zz + h2 * s.z * s.z,
+          h1 * s.xy + h2 * s.x * s.y,
+          h1 * s.xz + h2 * s.x * s.z,
+          h1 * s.yz + h2 * s.y * s.z};
+}
+
 /// s^(-3/2).
 LAMELLA_INLINE Taylor2 inverse_cubed_root(const Taylor2& s, V8 inv_s, V8 inv_root) {
   const V8 w0 = inv_s * inv_root, w1 = -1.5 * w0 * inv_s, w2 = 3.75 * w0 * inv_s * inv_s;
-  return {w0,
-          w1 * s.x,
-          w1 * s.y,
-          w1 * s.z,
-          w1 * s.xx + w2 * s.x * s.x,
-          w1 * s.yy + w2 * s.y * s.y,
-          w1 * s.zz + w2 * s.z * s.z,
-          w1 * s.xy + w2 * s.x * s.y,
-          w1 * s.xz + w2 * s.x * s.z,
-          w1 * s.yz + w2 * s.y * s.z};
+  return composed(w0, w1, w2, s);
 }
 
 /// s^(-2).
 LAMELLA_INLINE Taylor2 inverse_square(const Taylor2& s, V8 inv_s) {
   const V8 w0 = inv_s * inv_s, w1 = -2.0 * w0 * inv_s, w2 = -3.0 * w1 * inv_s;
-  return {w0,
-          w1 * s.x,
-          w1 * s.y,
-          w1 * s.z,
-          w1 * s.xx + w2 * s.x * s.x,
-          w1 * s.yy + w2 * s.y * s.y,
-          w1 * s.zz + w2 * s.z * s.z,
-          w1 * s.xy + w2 * s.x * s.y,
-          w1 * s.xz + w2 * s.x * s.z,
-          w1 * s.yz + w2 * s.y * s.z};
+  return composed(w0, w1, w2, s);
 }
 
 } // namespace lamella::LAMELLA_ISA

@@ -50,11 +50,15 @@ TEST_P(GeneralEquilibria, AreExact) {
   const std::vector<Measures> history = run(scene);
   const Measures& end = history.back();
   const double scale = std::max(end.terms.value(Term::bending), std::abs(end.energy));
-  std::printf("%s: %.1e after %zu steps\n", GetParam().name,
-              (end.energy - GetParam().energy) / scale, history.size() - 1);
+  const double virial = 3 * end.P * end.volume - 2 * end.sigma * end.area,
+               off = of_scaling(GetParam().moduli, end) - virial;
+  std::printf("%s: energy %.1e, change of scale %.1e, largest rise %.1e; %zu steps\n",
+              GetParam().name, (end.energy - GetParam().energy) / scale, off / scale,
+              largest_rise(history), history.size() - 1);
+  // Measured: energies within 1.5e-5, the change of scale 2.3e-3 (P and sigma are what scatters),
+  // rises 1.9e-5.
   EXPECT_NEAR(end.energy, GetParam().energy, 5e-5 * scale);
-  const double virial = 3 * end.P * end.volume - 2 * end.sigma * end.area;
-  EXPECT_NEAR(of_scaling(GetParam().moduli, end), virial, 1e-2 * scale);
+  EXPECT_NEAR(off, 0, 1e-2 * scale);
   EXPECT_LT(largest_rise(history), 1e-4);
 }
 

@@ -153,7 +153,10 @@ TEST(Hamiltonian, ForcesOnSpheresAreExact) {
     energy.find_forces(s.geometry, {}, {}, F);
     const auto of_sphere = [&](double r) { return r * r * energy.density(-2 / r, 1 / (r * r)); };
     const double e = 1e-4, exact = (of_sphere(R + e) - of_sphere(R - e)) / (2 * e * R * R);
-    for (const double f : F) ASSERT_NEAR(f, exact, 1e-3 * std::abs(exact) + 1e-3) << named.name;
+    double worst = 0;
+    for (const double f : F) worst = std::max(worst, std::abs(f - exact));
+    std::printf("%s on a sphere: %.1e of %.3g\n", named.name, worst, exact);
+    EXPECT_LT(worst, 1e-3 * std::abs(exact) + 1e-3) << named.name; // measured: 1.9e-4 of it
   }
 }
 
