@@ -42,9 +42,14 @@ std::string energy_rows(const Measures& start, const Measures& end) {
     text += row("", "of Lo", phases->bending_energy_Lo, end.phases->bending_energy_Lo);
     text += row("  phase boundary", "", phases->line_energy, end.phases->line_energy);
   }
+  const auto is_there = [&](Term term) { return start.terms[term] && end.terms[term]; };
+  const bool is_alone = std::ranges::count_if(energy_term_table, [&](const TermInfo& term) {
+                          return is_there(term.term);
+                        }) == 1;
   for (const TermInfo& term : energy_term_table) {
+    const bool is_told = term.term == Term::bending && (phases || is_alone);
+    if (is_told || !is_there(term.term)) continue;
     const auto &from = start.terms[term.term], &to = end.terms[term.term];
-    if (!from || !to || term.term == Term::bending) continue;
     const bool of_line = term.seat == Seat::boundary;
     text += row(fmt::format("{}{}", of_line ? "    " : "  ", term.label), plain(term.symbol), *from,
                 *to);

@@ -74,6 +74,15 @@ TEST(Summary, keeps_its_columns_in_line) {
   EXPECT_EQ(rows, 27);
 }
 
+TEST(Summary, tells_bending_beside_other_terms) {
+  Measures state;
+  state.terms[Term::bending] = 4.5;
+  EXPECT_THAT(summary_of(state, state), Not(HasSubstr("bending"))) << "the whole energy";
+  state.terms[Term::mixed_cubic] = -1.25;
+  EXPECT_THAT(summary_of(state, state), ContainsRegex("bending +4.5 +4.5\n +mixed cubic +KM K "
+                                                      "+-1.25 +-1.25\n"));
+}
+
 TEST(Summary, says_nothing_of_phases_where_there_is_one) {
   Measures state;
   state.sigma = -7;
