@@ -31,6 +31,8 @@ std::vector<Part> parts_of(const Measures& m) {
       all.push_back({term.label, style::of_term(term.term), m.terms.value(term.term)});
     }
   }
+  for (const auto& [name, energy] : m.terms.others())
+    all.push_back({name.c_str(), style::other_term, energy});
   return all.size() == 1 ? std::vector<Part>{} : all;
 }
 

@@ -30,6 +30,8 @@ inline constexpr std::array curves{membrane.line, Lo.line, teal, ochre, violet, 
 
 /// Of the energy of the phase boundary.
 constexpr Color line_energy = ochre;
+/// Of terms that are not built in.
+constexpr Color other_term = faint_ink;
 /// Of a term that lives elsewhere.
 constexpr Color of_term(Term term) {
   switch (term) {

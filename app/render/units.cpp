@@ -16,7 +16,7 @@
 namespace lamella::render {
 namespace {
 
-using Notations = std::map<std::string_view, Notation, std::less<>>;
+using Notations = std::map<std::string, Notation, std::less<>>;
 
 /// Of columns of history.csv; others are called as they are there.
 const std::map<std::string_view, std::pair<const char*, const char*>> names{

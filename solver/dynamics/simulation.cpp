@@ -44,7 +44,8 @@ const Start& checked(const Start& start, const Scene& scene) {
 }
 } // namespace
 
-Simulation::Simulation(const Scene& scene) : Simulation(scene, start_of(scene)) {}
+Simulation::Simulation(const Scene& scene, const SurfaceTerms& more)
+    : Simulation(scene, start_of(scene), more) {}
 
 StepControl Simulation::control_of(const Scene& scene) {
   return StepControl({scene.numerics.tolerance, scene.grid().spacing, scene.longest_step()});
@@ -54,9 +55,9 @@ int Simulation::responses_of(const Scene& scene) {
   return scene.area_difference.constraint == Constraint::free && !scene.has_phases() ? 1 : 2;
 }
 
-Simulation::Simulation(const Scene& scene, const Start& start)
+Simulation::Simulation(const Scene& scene, const Start& start, const SurfaceTerms& more)
     : contact_(scene.contact), control_(control_of(scene)), fourier_(scene.grid()),
-      vesicle_(scene, checked(start, scene), fourier_), gauge_(scene.grid()),
+      vesicle_(scene, checked(start, scene), fourier_, more), gauge_(scene.grid()),
       stepper_(scene.grid(), fourier_, responses_of(scene)), cells_(start.cells) {
   if (scene.has_phases()) psi_stepper_.emplace(scene.grid(), fourier_, 0);
   if (vesicle_.stretch()) c_stepper_.emplace(scene.grid(), fourier_, 0);
@@ -104,7 +105,7 @@ void Simulation::step(double latest) {
 /// Why a step cannot be kept; nothing where it is.
 std::optional<Simulation::Failure> Simulation::try_step(double then) {
   const SurfaceGeometry& surface = vesicle_.surface();
-  const double dt = then - time(), scale = vesicle_.energy_scale();
+  const double dt = then - time(), scale = vesicle_.energy_scale(measures_.terms);
   gauge_.filter(vesicle_.phi(), vesicle_.band());
   extend_rates([&](std::size_t i) { return vesicle_.velocity(i); });
   stepper_.predict(vesicle_.extension(), dt, implicit_symbol());
@@ -379,10 +380,13 @@ std::string Simulation::why_not_kept() const {
 
 std::string Simulation::why_not_risen(const Measures& risen) const {
   std::pair<std::string_view, double> most{};
-  for (const TermInfo& term : energy_term_table) {
-    const double rise = risen.terms.value(term.term) - measures_.terms.value(term.term);
-    if (rise > most.second) most = {term.phrase, rise};
-  }
+  const auto compare = [&](std::string_view phrase, double rise) {
+    if (rise > most.second) most = {phrase, rise};
+  };
+  for (const TermInfo& term : energy_term_table)
+    compare(term.phrase, risen.terms.value(term.term) - measures_.terms.value(term.term));
+  for (const auto& [name, energy] : risen.terms.others())
+    compare(name, energy - measures_.terms.others().at(name));
   return fmt::format("the energy would rise from {:.6g} to {:.6g} in a step, however short, though "
                      "nothing drives the vesicle; most of it is {}. The grid does not resolve what "
                      "happens there; try more grid.nodes",

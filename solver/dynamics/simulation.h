@@ -38,14 +38,15 @@ struct SimulationState {
 /// depends on the scene alone, to the last bit whatever the number of threads.
 class Simulation {
 public:
-  /// Throws RunError where the start shape cannot be represented.
-  explicit Simulation(const Scene& scene);
+  /// Throws RunError where the start shape cannot be represented. `more`: terms of the energy
+  /// besides those of the scene (docs/write-an-energy-term.md), as in the other two.
+  explicit Simulation(const Scene& scene, const SurfaceTerms& more = {});
   /// From fields in memory, whatever [shape] and [domains] say but for whether there are phases.
   /// RunError also where the fields are not those that the scene needs, on its nodes.
-  Simulation(const Scene& scene, const Start& start);
+  Simulation(const Scene& scene, const Start& start, const SurfaceTerms& more = {});
 
   /// Goes on from a state of a simulation of this scene. Throws RunError for one that does not fit.
-  Simulation(const Scene& scene, const SimulationState& state);
+  Simulation(const Scene& scene, const SimulationState& state, const SurfaceTerms& more = {});
   /// After at least one step (at its start a simulation is its scene), the last of them successful.
   SimulationState state() const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <ranges>
 
 // Interrupting a simulation and going on.
 namespace lamella {
@@ -87,16 +88,19 @@ void restore(std::optional<SemiImplicit>& stepper, const std::optional<SemiImpli
 
 } // namespace
 
-Simulation::Simulation(const Scene& scene, const SimulationState& s)
+Simulation::Simulation(const Scene& scene, const SimulationState& s, const SurfaceTerms& more)
     : contact_(scene.contact), control_(control_of(scene)), fourier_(scene.grid()),
-      vesicle_(scene, fitting(s, scene).vesicle, s.measures.time, fourier_), gauge_(scene.grid()),
-      stepper_(scene.grid(), fourier_, responses_of(scene)), inside_(s.inside), outside_(s.outside),
-      why_not_on_(s.why_not_on),
+      vesicle_(scene, fitting(s, scene).vesicle, s.measures.time, fourier_, more),
+      gauge_(scene.grid()), stepper_(scene.grid(), fourier_, responses_of(scene)),
+      inside_(s.inside), outside_(s.outside), why_not_on_(s.why_not_on),
       excess_(Eigen::Map<const Quantities>(s.excess.data(), 4, Eigen::Index(s.excess.size() / 4))),
       error_(s.error), last_dt_(s.last_dt), response_dt_(s.response_dt), steps_(s.steps),
       renormalised_(s.renormalised), next_parting_(s.next_parting), next_search_(s.next_search),
       failures_(s.failures), failed_before_(s.failed_before), driven_(s.driven), cells_(s.cells),
       topology_(s.topology), domains_(s.domains), measures_(s.measures), events_(s.events) {
+  if (!std::ranges::equal(std::views::keys(vesicle_.energies().others()),
+                          std::views::keys(measures_.terms.others())))
+    refuse("the terms of the energy that are not built in");
   check_fits(s.stepper, stepper_.memory());
   stepper_.remember(s.stepper);
   restore(psi_stepper_, s.psi_stepper, scene.grid(), fourier_);

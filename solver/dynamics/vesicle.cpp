@@ -46,17 +46,25 @@ double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::p
 } // namespace
 
 /// Without a membrane yet.
-Vesicle::Vesicle(const Scene& scene)
+Vesicle::Vesicle(const Scene& scene, const SurfaceTerms& more)
     : ld_(scene.has_phases() ? scene.ld : scene.membrane),
-      lo_(scene.has_phases() ? scene.lo : scene.membrane),
+      lo_(scene.has_phases() ? scene.lo : scene.membrane), more_(more),
       energy_(scene.membrane, scene.parameters), film_{scene.contact.disjoining_pressure,
                                                        scene.contact.disjoining_range},
       constraints_(scene), phi_(scene.grid()), band_(scene.grid(), band_half_width),
       extension_(scene.grid()),
       surface_(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside()),
-      components_(scene.grid(), keeps_apart(scene)) {}
+      components_(scene.grid(), keeps_apart(scene)) {
+  set_energy(energy_);
+}
 
-Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier) : Vesicle(scene) {
+void Vesicle::set_energy(SurfaceEnergy of_scene) {
+  energy_ = std::move(of_scene);
+  for (const auto& term : more_) energy_.add(term);
+}
+
+Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier, const SurfaceTerms& more)
+    : Vesicle(scene, more) {
   std::ranges::copy(start.phi, phi_.coefficients().begin());
   phi_.fit(start.phi, fourier);
   if (scene.has_phases()) set_phases(scene, start.psi, fourier);
@@ -101,8 +109,9 @@ Vesicle::State Vesicle::state() const {
   return state;
 }
 
-Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& fourier)
-    : Vesicle(scene) {
+Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& fourier,
+                 const SurfaceTerms& more)
+    : Vesicle(scene, more) {
   std::ranges::copy(state.phi, phi_.coefficients().begin());
   if (scene.has_phases()) {
     set_phases(scene, state.psi, fourier);
@@ -133,7 +142,7 @@ void Vesicle::shift(const std::array<int, 3>& cells) {
 
 void Vesicle::set_phases(const Scene& scene, std::span<const double> psi, Fourier& fourier) {
   phases_.emplace(scene, psi, fourier);
-  energy_ = phases_->surface_energy(0);
+  set_energy(phases_->surface_energy(0));
   energy_is_curved_ = phases_->is_curved(0);
 }
 
@@ -382,7 +391,7 @@ void Vesicle::integrate_all(bool with_forces) {
 
 void Vesicle::measure_forces(double time) {
   if (phases_ && energy_is_curved_ != phases_->is_curved(time)) {
-    energy_ = phases_->surface_energy(time);
+    set_energy(phases_->surface_energy(time));
     energy_is_curved_ = !energy_is_curved_;
   }
   surface_.jets(phi_, band_,
@@ -533,9 +542,8 @@ EnergyTerms Vesicle::energies() const {
   return terms;
 }
 
-double Vesicle::energy_scale() const {
+double Vesicle::energy_scale(const EnergyTerms& terms) const {
   const double softest = std::min(ld_.bending_modulus, lo_.bending_modulus);
-  const EnergyTerms terms = energies();
   double sum = 0;
   for (const Term term : {Term::bending, Term::line_tension, Term::geodesic_square,
                           Term::normal_square, Term::torsion_square, Term::stretch, Term::film})

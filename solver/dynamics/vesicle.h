@@ -24,7 +24,8 @@ namespace lamella {
 /// constraints that it is on.
 class Vesicle {
 public:
-  Vesicle(const Scene& scene, const Start& start, Fourier& fourier);
+  /// `more`: terms of the energy besides those of the scene.
+  Vesicle(const Scene& scene, const Start& start, Fourier& fourier, const SurfaceTerms& more = {});
 
   /// All that the membrane is found from: what the last measurement began with. (What it found is
   /// many times as much, and comes out the same when it is made again.)
@@ -38,7 +39,8 @@ public:
   };
   State state() const;
   /// The membrane whose state() it was after it was measured at a time, to the last bit.
-  Vesicle(const Scene& scene, const State& state, double time, Fourier& fourier);
+  Vesicle(const Scene& scene, const State& state, double time, Fourier& fourier,
+          const SurfaceTerms& more = {});
 
   /// Finds everything that is known of the membrane after phi changed a little, having brought it
   /// onto its constraints at a time. Returns how far off them it was.
@@ -65,10 +67,10 @@ public:
 
   /// All terms.
   EnergyTerms energies() const;
-  /// What changes of the energy are compared with: the sum of those terms that cannot be negative
-  /// (bending, line tension, squares of the line, stretch, films), or the bending energy of a
-  /// sphere, 8 pi kappa of the softer phase, where that is more. Never 0, unlike the energy.
-  double energy_scale() const;
+  /// What changes of an energy of these terms are compared with: the sum of those that cannot be
+  /// negative (bending, line tension, squares of the line, stretch, films), or the bending energy
+  /// of a sphere, 8 pi kappa of the softer phase, where that is more. Never 0, unlike the energy.
+  double energy_scale(const EnergyTerms& terms) const;
   /// All but the step.
   Measures measures(double time) const;
   /// Of each vesicle.
@@ -128,7 +130,7 @@ public:
   std::vector<double> grad_of_entries() const;
 
 private:
-  explicit Vesicle(const Scene& scene);
+  Vesicle(const Scene& scene, const SurfaceTerms& more);
 
   /// One way to displace the membrane.
   struct Direction {
@@ -139,6 +141,7 @@ private:
   /// -1 / drag.
   static constexpr int directions = 4, with_boundary = 3;
 
+  void set_energy(SurfaceEnergy of_scene);
   void set_phases(const Scene& scene, std::span<const double> psi, Fourier& fourier);
   void set_lengths(const Scene& scene);
   double leave_sphere();
@@ -159,6 +162,7 @@ private:
   void push_films_apart();
 
   SurfaceModuli ld_, lo_; ///< with one phase both are the same
+  SurfaceTerms more_;
   SurfaceEnergy energy_;
   SurfaceEnergy::Stiffness stiffness_;
   bool energy_is_curved_ = true; // the phases have their spontaneous curvatures

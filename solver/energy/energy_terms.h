@@ -1,7 +1,11 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
 
 namespace lamella {
 
@@ -34,7 +38,13 @@ enum class Term {
   count
 };
 
-/// What is told of a term of the energy, wherever it is told.
+/// What a term is called: one of those that are built in, or another by a word of its own.
+using TermName = std::variant<Term, std::string>;
+
+/// Whether a term that is not built in may be called this: letters, digits and _, a letter first.
+bool is_term_name(std::string_view word);
+
+/// What is told of a term that is built in, wherever it is told.
 struct TermInfo {
   Term term;
   Seat seat;
@@ -44,7 +54,7 @@ struct TermInfo {
   const char* phrase; ///< completes "most of it is ..."
 };
 
-/// All terms, in the order of Term: the one place that a new term is told in.
+/// All that are built in, in the order of Term: the one place that a new one is told in.
 inline constexpr std::array<TermInfo, std::size_t(Term::count)> energy_term_table{{
     {Term::bending, Seat::membrane, "bending_energy", "bending", "", "bending"},
     {Term::gaussian, Seat::membrane, "gaussian_energy", "Gaussian curvature", "",
@@ -91,12 +101,17 @@ public:
   const std::optional<double>& operator[](Term term) const { return values_[std::size_t(term)]; }
   /// 0 where there is no such term.
   double value(Term term) const { return (*this)[term].value_or(0); }
+  /// Of terms that are not built in, by name; all of these are integrals over the membrane.
+  std::map<std::string, double>& others() { return others_; }
+  const std::map<std::string, double>& others() const { return others_; }
+  void add(const TermName& term, double energy);
   double sum() const;
   /// Of those that have this seat.
   double sum(Seat seat) const;
 
 private:
   std::array<std::optional<double>, std::size_t(Term::count)> values_{0.0};
+  std::map<std::string, double> others_;
 };
 
 } // namespace lamella

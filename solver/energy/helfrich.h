@@ -14,7 +14,7 @@ public:
   Helfrich(const Coefficient& bending_modulus, const Coefficient& spontaneous_curvature)
       : kappa_(bending_modulus), C_(spontaneous_curvature) {}
 
-  Term term() const override { return Term::bending; }
+  TermName term() const override { return Term::bending; }
   Derivatives needs() const override { return Derivatives::laplacian; }
   bool differs_between_phases() const override { return kappa_.differs() || C_.differs(); }
 

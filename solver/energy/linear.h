@@ -21,7 +21,7 @@ public:
                                                                            per_area(lo),
                                                                            Profile::accurate} {}
 
-  Term term() const override { return Term::linear; }
+  TermName term() const override { return Term::linear; }
   Derivatives needs() const override { return Derivatives::laplacian; }
   bool differs_between_phases() const override { return true; }
 

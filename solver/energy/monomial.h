@@ -12,7 +12,7 @@ public:
   /// Energy length^(m + 2 n - 2).
   explicit Monomial(const Coefficient& modulus) : modulus_(modulus) {}
 
-  Term term() const override { return of; }
+  TermName term() const override { return of; }
   Derivatives needs() const override {
     return m + n <= 1 ? Derivatives::laplacian : n == 0 ? Derivatives::gradient : Derivatives::all;
   }

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fmt/format.h>
+#include <stdexcept>
 
 namespace lamella {
 
@@ -26,7 +28,8 @@ using GaussianSquare = Monomial<Term::gaussian_square, 0, 2>;
 using Geodesic = Monomial<Term::geodesic, 0, 1>;
 
 /// The sum of everything is F = Lap_s f_M + (K_M^2 - 2 K) f_M + K_M Lap_s f_K - B : grad grad f_K +
-/// K_M K f_K - K_M f, with partial derivatives f_M, f_K of the density f (docs/theory.md).
+/// K_M K f_K - K_M f, with partial derivatives f_M, f_K of the density f (docs/theory.md, which has
+/// a picture of the way to it).
 Lanes variation_of(const Lanes& f, const Partials<AffineJet>& by, const Lanes& KM, const Lanes& K) {
   return by.by_KM.lap + (KM * KM - 2 * K) * by.by_KM.f + KM * (K * by.by_K.f - f);
 }
@@ -177,6 +180,12 @@ void SurfaceEnergy::add_if(const Coefficient& modulus) {
 }
 
 void SurfaceEnergy::add(std::shared_ptr<const SurfaceTerm> term) {
+  const TermName name = term->term();
+  if (const auto* word = std::get_if<std::string>(&name); word && !is_term_name(*word))
+    throw std::invalid_argument(
+        fmt::format("\"{}\" cannot name a term of the energy; allowed: letters, digits and _, a "
+                    "letter first",
+                    *word));
   terms_.push_back(std::move(term));
   density_.emplace_back();
 }
@@ -296,10 +305,8 @@ Univariate SurfaceEnergy::across(double psi, double KM, double K) const {
 }
 
 void SurfaceEnergy::find_energies(const SurfaceGeometry& surface, EnergyTerms& terms) const {
-  for (std::size_t t = 0; t < terms_.size(); t++) {
-    std::optional<double>& energy = terms[terms_[t]->term()];
-    energy = energy.value_or(0) + integral(surface, density_[t], {});
-  }
+  for (std::size_t t = 0; t < terms_.size(); t++)
+    terms.add(terms_[t]->term(), integral(surface, density_[t], {}));
 }
 
 double SurfaceEnergy::bending_Ld(const SurfaceGeometry& surface,

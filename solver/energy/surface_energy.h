@@ -27,8 +27,10 @@ public:
   SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo, double geodesic_modulus,
                 const StepProfiles& profiles, const Parameters& parameters = {});
 
-  /// One more.
+  /// One more. Throws std::invalid_argument for one whose name is none, see is_term_name().
   void add(std::shared_ptr<const SurfaceTerm> term);
+
+  const SurfaceTerms& terms() const { return terms_; }
 
   /// What the samples must be known by.
   Derivatives needs() const;
@@ -72,7 +74,7 @@ private:
                  std::span<double> variation);
   void find_strip(const SurfaceGeometry& surface, const Strip& strip, std::span<double> variation);
 
-  std::vector<std::shared_ptr<const SurfaceTerm>> terms_;
+  SurfaceTerms terms_;
   std::vector<std::vector<double>> density_; ///< of each term at the samples
   StepProfiles profiles_;
 };

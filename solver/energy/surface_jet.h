@@ -5,6 +5,10 @@
 
 /// Numbers that densities of the energy are computed with. A density is written once; what it is
 /// computed with decides whether values, derivatives along the membrane or variations come out.
+#if defined(LAMELLA_IS_PORTABLE) && defined(__AVX__)
+#error "Lamella is built for any CPU: without -march and -mavx, which change how vectors are passed"
+#endif
+
 namespace lamella {
 
 /// Eight samples side by side, in as many registers as it takes.

@@ -1,8 +1,12 @@
 #pragma once
 #include "energy/coefficient.h"
 #include "energy/energy_terms.h"
+#include "energy/functions_of_duals.h"
 #include "energy/surface_jet.h"
 #include "geometry/surface_geometry.h"
+
+#include <memory>
+#include <vector>
 
 namespace lamella {
 
@@ -34,7 +38,7 @@ class SurfaceTerm {
 public:
   virtual ~SurfaceTerm() = default;
 
-  virtual Term term() const = 0;
+  virtual TermName term() const = 0;
   /// Where coefficients do not vary.
   virtual Derivatives needs() const = 0;
   virtual bool differs_between_phases() const = 0;
@@ -49,10 +53,14 @@ public:
   virtual Univariate across(const SurfacePoint<Univariate>& at) const = 0;
 };
 
+/// Terms of a run besides those of its scene.
+using SurfaceTerms = std::vector<std::shared_ptr<const SurfaceTerm>>;
+
 /// What a term needs to write is its density, as
 ///   template <class C, class N> N density(const Steps<C>& steps, const N& KM, const N& K) const,
 /// where coefficients are of type C and the curvatures of type N, which may carry derivatives; and
-/// whether it depends on K.
+/// whether it depends on K. Densities are made of +, -, *, constant<N>(2.5), apply(Function::sqrt,
+/// K), and coefficients that may differ between phases, Coefficient::at(steps).
 template <class Density>
 class DensityTerm : public SurfaceTerm {
 public:

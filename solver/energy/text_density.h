@@ -14,7 +14,7 @@ public:
   /// A text may be empty, which is 0. Throws FormulaError.
   TextDensity(const std::string& ld, const std::string& lo, const FormulaNames& names);
 
-  Term term() const override { return Term::density; }
+  TermName term() const override { return Term::density; }
   Derivatives needs() const override;
   bool differs_between_phases() const override { return phases_.size() > 1; }
 

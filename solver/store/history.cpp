@@ -59,6 +59,10 @@ std::string json_text(std::string_view text) {
 
 } // namespace
 
+namespace {
+constexpr std::string_view other_term = "energy_of_"; // begins the column of one not built in
+}
+
 Measures measures_with(std::span<const std::string> columns) {
   const auto has = [&](std::string_view column) {
     return std::ranges::find(columns, column) != columns.end();
@@ -68,6 +72,10 @@ Measures measures_with(std::span<const std::string> columns) {
   if (has("c_min")) measures.stretch.emplace();
   for (const TermInfo& term : energy_term_table)
     if (has(term.column)) measures.terms[term.term].emplace();
+  for (const std::string& column : columns)
+    if (column.starts_with(other_term))
+      if (const std::string name = column.substr(other_term.size()); is_term_name(name))
+        measures.terms.others()[name] = 0;
   if (has("energy_rise")) measures.energy_rise.emplace(); // earlier versions wrote none
   return measures;
 }
@@ -95,6 +103,8 @@ Row row_of(Measures& m) {
   for (const TermInfo& term : energy_term_table)
     if (auto& value = m.terms[term.term]; value && term.term != Term::bending)
       row.push_back({term.column, &*value, "energy"});
+  for (auto& [name, energy] : m.terms.others())
+    row.push_back({std::string(other_term) + name, &energy, "energy"});
   if (m.energy_rise) row.push_back({"energy_rise", &*m.energy_rise});
   return row;
 }

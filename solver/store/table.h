@@ -13,7 +13,7 @@ namespace lamella {
 
 /// One value of a row, and the column it stands in. The first column of a table is the time.
 struct Field {
-  std::string_view column;
+  std::string column;
   std::variant<double*, int*, Event::Kind*> value;
   std::string_view unit = {}; ///< in words, as in scene/keys.cpp: "energy/length²"
 };

@@ -13,7 +13,7 @@ class InCpp : public DensityTerm<InCpp> {
 public:
   static constexpr bool depends_on_K = true;
 
-  Term term() const override { return Term::bending; }
+  TermName term() const override { return Term::bending; }
   Derivatives needs() const override { return Derivatives::all; }
   bool differs_between_phases() const override { return false; }
 

@@ -98,6 +98,32 @@ TEST(TextDensity, IsTheTermThatIsBuiltIn) {
               Helfrich({0.4, 0.4, Profile::compliance}, {-1.7, -1.7}));
 }
 
+/// A density in C++ that calls each of the functions.
+class AllFunctions : public DensityTerm<AllFunctions> {
+public:
+  static constexpr bool depends_on_K = true;
+
+  TermName term() const override { return "all_functions"; }
+  Derivatives needs() const override { return Derivatives::all; }
+  bool differs_between_phases() const override { return false; }
+
+  template <class C, class N>
+  N density(const Steps<C>&, const N& KM, const N& K) const {
+    using F = Function;
+    const N x = KM * K, s = constant<N>(2) + K;
+    return apply(F::reciprocal, s) + apply(F::sqrt, s) + apply(F::exp, x) + apply(F::log, s) +
+           apply(F::sin, x) + apply(F::cos, x) + apply(F::tan, 0.3 * K) + apply(F::sinh, KM) +
+           apply(F::cosh, x) + apply(F::tanh, x) + apply(F::atan, x);
+  }
+};
+
+TEST(TextDensity, IsTheDensityInCpp) {
+  const std::string text = "1/(2 + K) + sqrt(2 + K) + exp(KM*K) + log(2 + K) + sin(KM*K) + "
+                           "cos(KM*K) + tan(0.3*K) + sinh(KM) + cosh(KM*K) + tanh(KM*K) + "
+                           "atan(KM*K)";
+  expect_same(TextDensity(text, text, names), AllFunctions());
+}
+
 TEST(TextDensity, AsksForNoMoreDerivativesThanItNeeds) {
   const auto needs = [](const std::string& ld, const std::string& lo) {
     return TextDensity(ld, lo, names).needs();
