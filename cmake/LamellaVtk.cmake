@@ -57,7 +57,7 @@ vtk_module_build(
   PACKAGE Lamella
   INSTALL_EXPORT Lamella
   INSTALL_HEADERS ON
-  HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/lamella"
+  HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/lamella/vtk"
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/lamella"
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   ARCHIVE_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
@@ -65,14 +65,6 @@ vtk_module_build(
   LIBRARY_NAME_SUFFIX ""
   VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}")
-
-include(CMakePackageConfigHelpers)
-set(lamella_package "${CMAKE_INSTALL_LIBDIR}/cmake/lamella")
-configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/LamellaConfig.cmake.in"
-  "${PROJECT_BINARY_DIR}/LamellaConfig.cmake" INSTALL_DESTINATION "${lamella_package}")
-write_basic_package_version_file("${PROJECT_BINARY_DIR}/LamellaConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
-install(FILES "${PROJECT_BINARY_DIR}/LamellaConfig.cmake" "${PROJECT_BINARY_DIR}/LamellaConfigVersion.cmake"
-  DESTINATION "${lamella_package}" COMPONENT development)
 
 if(LAMELLA_PYTHON)
   set(lamella_python_modules "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")

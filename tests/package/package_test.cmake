@@ -1,4 +1,4 @@
-# Installs the build BUILD into the folder WORK, then builds and runs PROJECT against what is installed.
+# Installs the build BUILD into the folder WORK, then builds and runs projects in EXAMPLES against what is installed.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -8,14 +8,41 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
+function(build project folder)
+  run("${CMAKE_COMMAND}" -S "${project}" -B "${folder}" -G "${GENERATOR}" -DCMAKE_BUILD_TYPE=Release
+    "-DCMAKE_PREFIX_PATH=${WORK}/moved" "-DCMAKE_CXX_COMPILER=${COMPILER}")
+  run("${CMAKE_COMMAND}" --build "${folder}")
+endfunction()
+
+# Each of the solver's headers, on its own and all together.
+function(write_project_of_headers folder)
+  file(GLOB_RECURSE headers RELATIVE "${WORK}/moved/include" "${WORK}/moved/include/lamella/*.h")
+  list(FILTER headers EXCLUDE REGEX "lamella/vtk/|kernels/") # those of the kernels say for which CPU
+  foreach(header IN LISTS headers)
+    string(APPEND all "#include <${header}>\n")
+  endforeach()
+  file(WRITE "${folder}/all.cpp" "${all}#include <error.h> // the system's\nint main() { error(0, 0, \"none\"); }\n")
+  file(WRITE "${folder}/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)\nproject(headers LANGUAGES CXX)
+find_package(Lamella REQUIRED COMPONENTS solver)\nadd_executable(headers all.cpp)
+target_link_libraries(headers PRIVATE Lamella::solver)\n")
+endfunction()
+
 file(REMOVE_RECURSE "${WORK}")
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/installed")
 file(RENAME "${WORK}/installed" "${WORK}/moved") # it may be put anywhere
-run("${CMAKE_COMMAND}" -S "${PROJECT}" -B "${WORK}/build" -G "${GENERATOR}" -DCMAKE_BUILD_TYPE=Release
-  "-DCMAKE_PREFIX_PATH=${WORK}/moved" "-DCMAKE_CXX_COMPILER=${COMPILER}")
-run("${CMAKE_COMMAND}" --build "${WORK}/build")
-run("${WORK}/build/pipeline")
+write_project_of_headers("${WORK}/headers")
+build("${WORK}/headers" "${WORK}/headers/build")
+build("${EXAMPLES}/own_term" "${WORK}/own_term")
+run("${WORK}/own_term/own_term" "${WORK}/run")
 message("${output}")
-run("${WORK}/moved/bin/lamella" --version)
-message("${output}")
+if(APP)
+  file(STRINGS "${WORK}/run/history.csv" columns LIMIT_COUNT 1)
+  message("${columns}")
+  run("${WORK}/moved/bin/lamella" inspect "${WORK}/run")
+  build("${EXAMPLES}/own_project" "${WORK}/own_project")
+  run("${WORK}/own_project/pipeline")
+  message("${output}")
+  run("${WORK}/moved/bin/lamella" --version)
+  message("${output}")
+endif()
 file(REMOVE_RECURSE "${WORK}")
