@@ -470,14 +470,34 @@ private:
 
   void spontaneous_curvatures() const {
     if (scene_.has_phases()) {
-      spontaneous_curvature(scene_.ld.spontaneous_curvature, {"ld.spontaneous_curvature"});
-      spontaneous_curvature(scene_.lo.spontaneous_curvature, {"lo.spontaneous_curvature"});
+      spontaneous_curvature(preferred_curvature(scene_.ld),
+                            {"ld.spontaneous_curvature", "ld.linear_modulus"});
+      spontaneous_curvature(preferred_curvature(scene_.lo),
+                            {"lo.spontaneous_curvature", "lo.linear_modulus"});
       return;
     }
     const AreaDifferenceConstraint& a = scene_.area_difference;
-    double c = scene_.membrane.spontaneous_curvature;
-    if (a.constraint == Constraint::free) c -= a.multiplier / (2 * scene_.membrane.bending_modulus);
-    spontaneous_curvature(c, {"membrane.spontaneous_curvature", "area_difference.multiplier"});
+    const double force = a.constraint == Constraint::free ? a.multiplier / 2 : 0;
+    spontaneous_curvature(preferred_curvature(scene_.membrane, force),
+                          {"membrane.spontaneous_curvature", "membrane.linear_modulus",
+                           "area_difference.multiplier"});
+  }
+
+  /// The K_M of least energy per area, under a force on it. (Cubic moduli, which may have none, and
+  /// those of K are left out.)
+  static double preferred_curvature(const SurfaceModuli& m, double force = 0) {
+    const double kappa = m.bending_modulus, q = std::max(0.0, m.quartic_modulus),
+                 whole = kappa * m.spontaneous_curvature - m.linear_modulus - force;
+    if (q == 0) return whole / kappa;
+    // Newton's method, from beyond it.
+    double x = std::copysign(
+        std::min(std::abs(whole) / kappa, std::cbrt(std::abs(whole) / (4 * q))), whole);
+    for (int pass = 0; pass < 100; pass++) {
+      const double step = (kappa * x + 4 * q * x * x * x - whole) / (kappa + 12 * q * x * x);
+      x -= step;
+      if (!(std::abs(step) > rounding * std::abs(x))) break;
+    }
+    return x;
   }
 
   static std::string path_of(const std::string& parameter) { return "parameters." + parameter; }
