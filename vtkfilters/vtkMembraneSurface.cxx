@@ -89,17 +89,30 @@ void AddPhase(vtkPolyData& mesh)
   mesh.GetPointData()->AddArray(phase);
 }
 
-void AddEnergyDensity(
-  vtkPolyData& mesh, const SplineGeometry& geometry, const lamella::Scene& forces)
+void AddEnergyDensity(vtkPolyData& mesh, const LevelSet& phi, const SplineGeometry& geometry,
+  const lamella::Scene& forces)
 {
   vtkDoubleArray* psi = PsiOf(mesh);
   double* density = AddArray(mesh, "energy_density");
   const lamella::SurfaceEnergy membrane(forces.membrane, forces.parameters),
     ld(forces.ld, forces.parameters), lo(forces.lo, forces.parameters);
+  std::vector<double> slope2(geometry.KM.size(), 0);
+  if (std::max({ membrane.needs(), ld.needs(), lo.needs() }) == lamella::Derivatives::sixth)
+  {
+    std::vector<lamella::Vec3> places(slope2.size());
+    for (std::size_t n = 0; n < places.size(); ++n)
+    {
+      mesh.GetPoint(static_cast<vtkIdType>(n), places[n].data());
+    }
+    slope2 = lamella::squared_gradient_of_KM(phi, places);
+  }
   for (std::size_t n = 0; n < geometry.KM.size(); ++n)
   {
     const bool isLd = psi && psi->GetValue(static_cast<vtkIdType>(n)) < 0;
-    density[n] = (isLd ? ld : psi ? lo : membrane).density(geometry.KM[n], geometry.K[n]);
+    density[n] = (isLd ? ld
+        : psi          ? lo
+                       : membrane)
+                   .density(geometry.KM[n], geometry.K[n], slope2[n]);
   }
 }
 
@@ -141,7 +154,7 @@ vtkSmartPointer<vtkPolyData> ExactSurface(
   lamella::add_fields(*mesh, fine);
   std::copy(geometry.KM.begin(), geometry.KM.end(), AddArray(*mesh, "K_M"));
   std::copy(geometry.K.begin(), geometry.K.end(), AddArray(*mesh, "K"));
-  AddEnergyDensity(*mesh, geometry, forces);
+  AddEnergyDensity(*mesh, phi, geometry, forces);
   if (multipliers)
   {
     AddVelocity(*mesh, geometry,

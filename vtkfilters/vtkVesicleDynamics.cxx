@@ -76,6 +76,7 @@ lamellaProperty(vtkVesicleDynamics, QuarticModulus, double, membrane.quartic_mod
 lamellaProperty(vtkVesicleDynamics, MixedQuarticModulus, double, membrane.mixed_quartic_modulus);
 lamellaProperty(
   vtkVesicleDynamics, GaussianSquareModulus, double, membrane.gaussian_square_modulus);
+lamellaProperty(vtkVesicleDynamics, GradientModulus, double, membrane.gradient_modulus);
 lamellaTextProperty(vtkVesicleDynamics, Density, membrane.density);
 lamellaProperty(vtkVesicleDynamics, LdBendingModulus, double, ld.bending_modulus);
 lamellaProperty(vtkVesicleDynamics, LdSpontaneousCurvature, double, ld.spontaneous_curvature);
@@ -86,6 +87,7 @@ lamellaProperty(vtkVesicleDynamics, LdMixedCubicModulus, double, ld.mixed_cubic_
 lamellaProperty(vtkVesicleDynamics, LdQuarticModulus, double, ld.quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, LdMixedQuarticModulus, double, ld.mixed_quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, LdGaussianSquareModulus, double, ld.gaussian_square_modulus);
+lamellaProperty(vtkVesicleDynamics, LdGradientModulus, double, ld.gradient_modulus);
 lamellaTextProperty(vtkVesicleDynamics, LdDensity, ld.density);
 lamellaProperty(vtkVesicleDynamics, LoBendingModulus, double, lo.bending_modulus);
 lamellaProperty(vtkVesicleDynamics, LoSpontaneousCurvature, double, lo.spontaneous_curvature);
@@ -96,6 +98,7 @@ lamellaProperty(vtkVesicleDynamics, LoMixedCubicModulus, double, lo.mixed_cubic_
 lamellaProperty(vtkVesicleDynamics, LoQuarticModulus, double, lo.quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, LoMixedQuarticModulus, double, lo.mixed_quartic_modulus);
 lamellaProperty(vtkVesicleDynamics, LoGaussianSquareModulus, double, lo.gaussian_square_modulus);
+lamellaProperty(vtkVesicleDynamics, LoGradientModulus, double, lo.gradient_modulus);
 lamellaTextProperty(vtkVesicleDynamics, LoDensity, lo.density);
 lamellaProperty(vtkVesicleDynamics, DomainsCurvatureStartTime, double, curvature_start_time);
 lamellaProperty(vtkVesicleDynamics, LineTension, double, line.tension);

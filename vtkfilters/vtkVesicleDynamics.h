@@ -149,6 +149,13 @@ public:
   ///@}
 
   ///@{
+  /** [membrane] gradient_modulus: of the square of the gradient of K_M along the membrane. A number from 0
+   * to 1e+30; energy length^2. Default 0. */
+  void SetGradientModulus(double value);
+  double GetGradientModulus();
+  ///@}
+
+  ///@{
   /** [membrane] density: one more energy per area, a formula of KM and K. A text;
    * energy/length^2. Default none. */
   void SetDensity(const char* value);
@@ -223,6 +230,13 @@ public:
   ///@}
 
   ///@{
+  /** [ld] gradient_modulus: of the square of the gradient of K_M along the membrane. A number from 0
+   * to 1e+30; energy length^2. Default 0. */
+  void SetLdGradientModulus(double value);
+  double GetLdGradientModulus();
+  ///@}
+
+  ///@{
   /** [ld] density: one more energy per area, a formula of KM and K. A text; energy/length^2.
    * Default none. */
   void SetLdDensity(const char* value);
@@ -287,6 +301,13 @@ public:
    * 0. */
   void SetLoGaussianSquareModulus(double value);
   double GetLoGaussianSquareModulus();
+  ///@}
+
+  ///@{
+  /** [lo] gradient_modulus: of the square of the gradient of K_M along the membrane. A number from 0
+   * to 1e+30; energy length^2. Default 0. */
+  void SetLoGradientModulus(double value);
+  double GetLoGradientModulus();
   ///@}
 
   ///@{

@@ -25,7 +25,7 @@ constexpr Hue Ld{{226, 92, 80}, {190, 62, 44}}, Lo{{96, 152, 214}, {38, 98, 168}
 constexpr Color ochre{176, 122, 0}, teal{0, 128, 108}, violet{130, 90, 160}, sky{70, 170, 215},
     pink{222, 92, 150}, brown{110, 58, 20}, olive{132, 140, 20}, navy{40, 44, 120},
     plum{140, 20, 90}, lime{110, 185, 60}, peach{236, 150, 90}, slate{112, 124, 140},
-    moss{70, 100, 50};
+    moss{70, 100, 50}, maroon{110, 25, 35};
 inline constexpr std::array curves{membrane.line, Lo.line, teal, ochre, violet, sky, pink, brown};
 
 /// Of the energy of the phase boundary.
@@ -49,6 +49,8 @@ constexpr Color of_term(Term term) {
     return peach;
   case Term::gaussian_square:
     return slate;
+  case Term::gradient:
+    return maroon;
   case Term::density:
     return moss;
   case Term::stretch:

@@ -206,6 +206,8 @@ void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, Su
   parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; m++) jets_.psi[m] = jet_of(strip_[m], surface);
   });
+  jets_.further.clear();
+  if (energy.gradient_differs()) find_further(surface);
   energy.find_forces(surface, is_Ld_, jets_, variation);
   add_line_forces(surface, variation);
 }
@@ -221,6 +223,33 @@ SurfaceJet<double> Phases::jet_of(const StripPoint& s, const SurfaceGeometry& su
           {Bg[0], Bg[1], Bg[2]},
           s.lap,
           (B * (P * s.hessian * P + s.along_N * B)).trace()};
+}
+
+/// psi along the membrane, where third derivatives of it count: with T those in space,
+///   grad_s Lap_s psi = P [grad Lap psi - T(N, N) + K_M H N] + 2 B H N + N.grad psi grad_s K_M
+///                      - K_M B grad psi.
+void Phases::find_further(const SurfaceGeometry& surface) {
+  std::vector<Vector3d> points;
+  for (const StripPoint& s : strip_) points.push_back(vec(surface.point(s.sample)));
+  const std::vector<ThirdDerivatives> third = third_derivatives(psi_, points);
+  jets_.further.resize(strip_.size());
+  parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; m++) {
+      const StripPoint& s = strip_[m];
+      const std::size_t i = s.sample;
+      const Vector3d N = vec(surface.normal(i)), HN = s.hessian * N,
+                     grad_KM(surface.grad_KM(0)[i], surface.grad_KM(1)[i], surface.grad_KM(2)[i]);
+      const Matrix3d P = Matrix3d::Identity() - N * N.transpose(), B = curvature_tensor(surface, i),
+                     hess = P * s.hessian * P + s.along_N * B;
+      const double KM = surface.KM()[i];
+      Vector3d inner = KM * HN;
+      for (int d = 0; d < 3; d++) inner[d] += third[m].by[d].trace() - N.dot(third[m].by[d] * N);
+      const Vector3d grad_lap =
+          P * inner + 2 * B * HN + s.along_N * grad_KM - KM * (B * s.gradient);
+      jets_.further[m] = {{hess(0, 0), hess(1, 1), hess(2, 2), hess(0, 1), hess(0, 2), hess(1, 2)},
+                          {grad_lap[0], grad_lap[1], grad_lap[2]}};
+    }
+  });
 }
 
 /// Adds what the line energy does to the membrane, spread over the strip.
@@ -286,12 +315,18 @@ void Phases::find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energ
   for (std::size_t i = 0; i < points.size(); i++)
     points[i] -= near[i].value / near[i].gradient.squaredNorm() * near[i].gradient;
   const std::vector<Taylor> f = taylor(phi, points), psi = taylor(psi_, points);
+  std::vector<double> slope2(points.size(), 0);
+  if (energy.gradient_differs()) {
+    std::vector<Vec3> places;
+    for (const Vector3d& p : points) places.push_back({p[0], p[1], p[2]});
+    slope2 = squared_gradient_of_KM(phi, places);
+  }
   for (std::size_t j = 0; j < curve.size(); j++) {
     double slope = 0; // of the force as the boundary moves
     for (int q = 0; q < rule; q++) {
       const std::size_t i = rule * j + q;
       const CurveGeometry c = curve_geometry(f[i], psi[i]);
-      const Univariate density = energy.across(psi[i].value, c.KM(), c.K());
+      const Univariate density = energy.across(psi[i].value, c.KM(), c.K(), slope2[i]);
       if (!std::isfinite(density.d1)) continue;
       const double s = node[q] * reach, width = weight[q] * reach * (1 - curve[j].kg * s);
       force_[j] += width * density.d1;

@@ -127,6 +127,7 @@ private:
   };
 
   SurfaceJet<double> jet_of(const StripPoint& point, const SurfaceGeometry& surface) const;
+  void find_further(const SurfaceGeometry& surface);
   void add_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const;
   void restore_distance(const NarrowBand& band);
   void find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energy);

@@ -8,14 +8,16 @@
 
 namespace lamella {
 
-/// How stiff the bending force is taken to be: the implicit symbol is stiffness k^4 + tension k^2.
+/// How stiff the force of the membrane is taken to be: the implicit symbol is stiffness k^4 +
+/// tension k^2 and, levelled off near the grid, gradient k^6, none of which is negative.
 struct ImplicitSymbol {
   double stiffness = 1; ///< bending modulus
-  double tension = 0;   ///< >= 0
+  double tension = 0;
+  double gradient = 0; ///< twice the gradient modulus
 };
 
 /// Advances phi by d phi / dt = rate with the stiff part implicit: a blend, mode by mode, of SBDF2
-/// (where z = dt (stiffness k^4 + tension k^2) is small) and semi-implicit Euler (where it is
+/// (where z, dt times the implicit symbol, is small) and semi-implicit Euler (where it is
 /// large), with variable steps. Stiff modes keep 0.3 of SBDF2's history, which cuts their lag by a
 /// third; that is stable while the true symbol is below 1.6 times the implicit one (Euler alone: 2,
 /// SBDF2 alone: 4/3).

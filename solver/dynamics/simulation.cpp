@@ -149,7 +149,8 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
 
 /// For a shorter step, or not at all.
 void Simulation::take_back(const Failure& failure, double dt) {
-  const double h = grid().spacing, shortest = shortest_step * h * h * h * h / vesicle_.stiffness();
+  const double h = grid().spacing,
+               shortest = shortest_step * h * h * h * h / vesicle_.stiffness_of_grid();
   failed_before_ = failures_ == 0 ? failure.until : std::max(failed_before_, failure.until);
   if (++failures_ >= most_failures || dt < shortest) throw RunError(failure.why);
   go_back();
@@ -267,11 +268,13 @@ int Simulation::second_response() const {
 
 ImplicitSymbol Simulation::implicit_symbol() const {
   const double tension = vesicle_.greatest_tension() + vesicle_.curvature_tension();
-  if (!vesicle_.phases()) return {vesicle_.stiffness(), std::max(0.0, tension)};
+  const double gradient = vesicle_.gradient_stiffness();
+  if (!vesicle_.phases()) return {vesicle_.stiffness(), std::max(0.0, tension), gradient};
   const LineForces::Stiffness line = vesicle_.phases()->line_forces().of_membrane();
   return {vesicle_.stiffness() + line.stiffness,
           std::max(0.0, tension) + line.tension +
-              vesicle_.phases()->line().tension / vesicle_.constraints().radius()};
+              vesicle_.phases()->line().tension / vesicle_.constraints().radius(),
+          gradient};
 }
 
 void Simulation::predict_boundary(double dt) {
@@ -309,14 +312,31 @@ void Simulation::go_back() {
 double Simulation::choose_dt(double latest) const {
   double dt = last_dt_ == 0
                   ? control_.first(vesicle_.max_force())
-                  : control_.next(last_dt_, error_,
-                                  std::max(vesicle_.max_speed(), vesicle_.max_line_speed()),
+                  : control_.next(last_dt_, error_, std::max(speed(), vesicle_.max_line_speed()),
                                   vesicle_.relaxation_time());
   dt = std::min(dt, vesicle_.longest_step(time()));
   if (vesicle_.turns_at(time())) dt = std::min(dt, control_.first(vesicle_.max_speed()));
   const double left = latest - time();
   if (dt >= left * (1 - 1e-9)) return left;
   return dt > 0.5 * left ? 0.5 * left : dt;
+}
+
+/// At which steps move the membrane, at most. Of sixth derivatives of phi much is what the grid
+/// does not resolve: velocities that the implicit step leaves nothing of. So where there are any,
+/// it is the last step that tells.
+double Simulation::speed() const {
+  const double dt = stepper_.memory().dt;
+  if (vesicle_.gradient_stiffness() == 0 || dt == 0) return vesicle_.max_speed();
+  const SurfaceGeometry& surface = vesicle_.surface();
+  const NarrowBand& band = vesicle_.band();
+  double fastest = 0;
+  for (std::size_t i = 0; i < surface.entry().size(); i++) {
+    const int s = surface.entry()[i];
+    if (std::abs(band.distance()[s]) < grid().spacing)
+      fastest = std::max(fastest,
+                         std::abs(stepper_.increment()[band.node()[s]]) / (surface.grad()[i] * dt));
+  }
+  return fastest;
 }
 
 double Simulation::next_dt() const { return choose_dt(1e300); }

@@ -100,6 +100,7 @@ private:
   int second_response() const;
   ImplicitSymbol implicit_symbol() const;
   double choose_dt(double latest) const;
+  double speed() const;
   double step_error() const;
   double boundary_error() const;
   void go_back();

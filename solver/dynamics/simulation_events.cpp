@@ -123,7 +123,7 @@ void Simulation::note_unresolved() {
 /// The critical points near the membrane, on either side, the nearest first.
 void Simulation::find_narrow_places() {
   const double h = grid().spacing;
-  const ClosingRule rule{vesicle_.stiffness(), contact_.rupture_thickness};
+  const ClosingRule rule{vesicle_.stiffness_of_grid(), contact_.rupture_thickness};
   const std::vector<double> grad = vesicle_.grad_of_entries();
   inside_ = critical_points(vesicle_.phi(), vesicle_.band(), grad, rule.reach(h), true);
   outside_ = critical_points(vesicle_.phi(), vesicle_.band(), grad, rule.reach(h), false);
@@ -133,7 +133,7 @@ void Simulation::find_narrow_places() {
 std::optional<Closing> Simulation::closing_place() const {
   const SurfaceGeometry& surface = vesicle_.surface();
   const double h = grid().spacing;
-  const ClosingRule rule{vesicle_.stiffness(), contact_.rupture_thickness};
+  const ClosingRule rule{vesicle_.stiffness_of_grid(), contact_.rupture_thickness};
   for (const CriticalPoint& q : inside_) {
     double speed = 0, grad = 0;
     int count = 0;
@@ -179,7 +179,7 @@ void Simulation::change_topology_if_needed() {
 /// narrow enough to part: a step moves the membrane by a quarter of a spacing at most.
 long Simulation::steps_until_narrow() const {
   const double h = grid().spacing;
-  const ClosingRule rule{vesicle_.stiffness(), contact_.rupture_thickness};
+  const ClosingRule rule{vesicle_.stiffness_of_grid(), contact_.rupture_thickness};
   double nearest = rule.reach(h);
   for (const auto* places : {&inside_, &outside_})
     if (!places->empty()) nearest = std::min(nearest, places->front().radius);
@@ -274,7 +274,7 @@ bool Simulation::part_at(const Closing& place) {
     return whole_again();
   }
   const double h = grid().spacing;
-  last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.stiffness());
+  last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.stiffness_of_grid());
   parted.dt = measures_.dt;
   parted.energy_rise = measures_.energy_rise; // of the step that led here
   note(parted);

@@ -46,8 +46,8 @@ double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::p
 } // namespace
 
 /// Without a membrane yet.
-Vesicle::Vesicle(const Scene& scene, const SurfaceTerms& more)
-    : ld_(scene.has_phases() ? scene.ld : scene.membrane),
+Vesicle::Vesicle(const Scene& scene, Fourier& fourier, const SurfaceTerms& more)
+    : fourier_(fourier), ld_(scene.has_phases() ? scene.ld : scene.membrane),
       lo_(scene.has_phases() ? scene.lo : scene.membrane), more_(more),
       energy_(scene.membrane, scene.parameters), film_{scene.contact.disjoining_pressure,
                                                        scene.contact.disjoining_range},
@@ -61,10 +61,11 @@ Vesicle::Vesicle(const Scene& scene, const SurfaceTerms& more)
 void Vesicle::set_energy(SurfaceEnergy of_scene) {
   energy_ = std::move(of_scene);
   for (const auto& term : more_) energy_.add(term);
+  if (energy_.needs() == Derivatives::sixth && !laplacian_) laplacian_.emplace(grid(), fourier_);
 }
 
 Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier, const SurfaceTerms& more)
-    : Vesicle(scene, more) {
+    : Vesicle(scene, fourier, more) {
   std::ranges::copy(start.phi, phi_.coefficients().begin());
   phi_.fit(start.phi, fourier);
   if (scene.has_phases()) set_phases(scene, start.psi, fourier);
@@ -111,7 +112,7 @@ Vesicle::State Vesicle::state() const {
 
 Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& fourier,
                  const SurfaceTerms& more)
-    : Vesicle(scene, more) {
+    : Vesicle(scene, fourier, more) {
   std::ranges::copy(state.phi, phi_.coefficients().begin());
   if (scene.has_phases()) {
     set_phases(scene, state.psi, fourier);
@@ -396,6 +397,10 @@ void Vesicle::measure_forces(double time) {
   }
   surface_.jets(phi_, band_,
                 phases_ ? std::max(Derivatives::gradient, energy_.needs()) : energy_.needs());
+  if (energy_.needs() == Derivatives::sixth) {
+    laplacian_->find(phi_, band_, surface_, extension_);
+    surface_.differentiate(laplacian_->spline());
+  }
   variation_.resize(surface_.size());
   if (phases_)
     phases_->find_forces(phi_, surface_, energy_, variation_);
@@ -407,7 +412,7 @@ void Vesicle::measure_forces(double time) {
     stretch_->add_variation(surface_, variation_);
     if (phases_) phases_->add_flow(*stretch_);
   }
-  const double h = grid().spacing, limit = force_limit * stiffness() / (h * h * h) +
+  const double h = grid().spacing, limit = force_limit * stiffness_of_grid() / (h * h * h) +
                                            (phases_ ? phases_->line_forces().greatest() : 0);
   max_force_ = 0;
   for (double& F : variation_) {
@@ -474,14 +479,20 @@ double Vesicle::velocity(std::size_t i) const {
 double Vesicle::max_line_speed() const { return phases_ ? phases_->max_line_speed() : 0; }
 
 double Vesicle::relaxation_time() const {
-  const double of_membrane = std::pow(grid().spacing, 4) / stiffness();
+  const double of_membrane = std::pow(grid().spacing, 4) / stiffness_of_grid();
   return phases_ ? std::min(of_membrane, phases_->relaxation_time()) : of_membrane;
 }
 
-/// Where short waves gain as much as they cost elsewhere. (A little less than nothing, at a tip for
-/// a while, does no harm: the step damps short waves.)
+double Vesicle::stiffness_of_grid() const {
+  const double h = grid().spacing;
+  return stiffness() + gradient_stiffness() / (h * h);
+}
+
+/// Where waves as short as the grid gain as much as they cost elsewhere. (A little less than
+/// nothing, at a tip for a while, does no harm: the step damps short waves.)
 std::string Vesicle::why_not_stiff() const {
-  if (stiffness_.least > -stiffness_.most) return {};
+  const double h = grid().spacing;
+  if (stiffness_.least + stiffness_.least_gradient / (h * h) > -stiffness_of_grid()) return {};
   const std::size_t i = stiffness_.softest;
   const double mean = 0.5 * surface_.KM()[i],
                apart = std::sqrt(std::max(0.0, mean * mean - surface_.K()[i]));
@@ -545,7 +556,7 @@ EnergyTerms Vesicle::energies() const {
 double Vesicle::energy_scale(const EnergyTerms& terms) const {
   const double softest = std::min(ld_.bending_modulus, lo_.bending_modulus);
   double sum = 0;
-  for (const Term term : {Term::bending, Term::line_tension, Term::geodesic_square,
+  for (const Term term : {Term::bending, Term::gradient, Term::line_tension, Term::geodesic_square,
                           Term::normal_square, Term::torsion_square, Term::stretch, Term::film})
     sum += terms.value(term);
   return std::max(8 * std::numbers::pi * softest, sum);

@@ -8,6 +8,7 @@
 #include "dynamics/surface_integrals.h"
 #include "energy/film.h"
 #include "energy/surface_energy.h"
+#include "geometry/laplacian_field.h"
 #include "geometry/surface_geometry.h"
 #include "levelset/extension.h"
 #include "levelset/level_set.h"
@@ -68,8 +69,9 @@ public:
   /// All terms.
   EnergyTerms energies() const;
   /// What changes of an energy of these terms are compared with: the sum of those that cannot be
-  /// negative (bending, line tension, squares of the line, stretch, films), or the bending energy
-  /// of a sphere, 8 pi kappa of the softer phase, where that is more. Never 0, unlike the energy.
+  /// negative (bending, gradient, line tension, squares of the line, stretch, films), or the
+  /// bending energy of a sphere, 8 pi kappa of the softer phase, where that is more. Never 0,
+  /// unlike the energy.
   double energy_scale(const EnergyTerms& terms) const;
   /// All but the step.
   Measures measures(double time) const;
@@ -107,8 +109,13 @@ public:
   const Components& components() const { return components_; }
   const Multipliers& multipliers() const { return multipliers_; }
   const Constraints& constraints() const { return constraints_; }
-  /// The largest of what resists short waves: where only bending does, the bending modulus.
-  double stiffness() const { return stiffness_.most; }
+  /// What resists waves, at most: where only bending does, the bending modulus.
+  double stiffness() const { return std::max(0.0, stiffness_.most); }
+  /// The same of the gradient of K_M: a wave of wave number k is resisted with stiffness k^4 +
+  /// gradient_stiffness k^6.
+  double gradient_stiffness() const { return stiffness_.most_gradient; }
+  /// A bending modulus that would resist a bump of the size of the grid, k = 1 / h, as much.
+  double stiffness_of_grid() const;
   /// Nothing, or why the energy does not resist short waves everywhere.
   std::string why_not_stiff() const;
   /// The largest tension of a phase or a domain.
@@ -130,7 +137,7 @@ public:
   std::vector<double> grad_of_entries() const;
 
 private:
-  Vesicle(const Scene& scene, const SurfaceTerms& more);
+  Vesicle(const Scene& scene, Fourier& fourier, const SurfaceTerms& more);
 
   /// One way to displace the membrane.
   struct Direction {
@@ -161,6 +168,7 @@ private:
   void find_velocities(double time);
   void push_films_apart();
 
+  Fourier& fourier_;
   SurfaceModuli ld_, lo_; ///< with one phase both are the same
   SurfaceTerms more_;
   SurfaceEnergy energy_;
@@ -174,6 +182,7 @@ private:
   NarrowBand band_;
   Extension extension_;
   SurfaceGeometry surface_;
+  std::optional<LaplacianField> laplacian_; // where the energy needs its derivatives
   Components components_;
   SurfaceIntegrals integrals_;
   std::vector<SurfaceIntegrals> of_each_;

@@ -44,13 +44,21 @@ struct Coefficient {
   N at(const Steps<N>& steps) const {
     if (!differs()) return constant<N>(ld);
     if (profile == Profile::compliance) return reciprocal(between(1 / ld, 1 / lo, steps.monotonic));
-    return between(ld, lo,
-                   profile == Profile::accurate  ? steps.accurate
-                   : profile == Profile::moments ? steps.moments
-                                                 : steps.monotonic);
+    return between(ld, lo, of(steps));
+  }
+  /// Its derivative by the distance, from those of the steps; not for compliances.
+  template <class N>
+  N slope(const Steps<N>& slopes) const {
+    return (lo - ld) * of(slopes);
   }
 
 private:
+  template <class N>
+  const N& of(const Steps<N>& steps) const {
+    return profile == Profile::accurate  ? steps.accurate
+           : profile == Profile::moments ? steps.moments
+                                         : steps.monotonic;
+  }
   template <class N>
   static N between(double from, double to, const N& step) {
     return (to - from) * step + from;

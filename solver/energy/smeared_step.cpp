@@ -56,15 +56,17 @@ SmearedStep SmearedStep::monotonic(double half_width) {
 
 SmearedStep::Value SmearedStep::at(double x) const {
   const double u = x / half_width_, v = u * u;
-  if (u >= 1) return {1, 0, 0};
-  if (u <= -1) return {0, 0, 0};
-  double step = 0, delta = 0, slope = 0;
+  if (u >= 1) return {1, 0, 0, 0};
+  if (u <= -1) return {0, 0, 0, 0};
+  double step = 0, delta = 0, slope = 0, bend = 0;
   for (int j = terms - 1; j >= 0; j--) {
     step = step * v + even_[j] / (2 * j + 1);
     delta = delta * v + even_[j];
     if (j > 0) slope = slope * v + 2 * j * even_[j];
+    if (j > 0) bend = bend * v + 2 * j * (2 * j - 1) * even_[j];
   }
-  return {0.5 + u * step, delta / half_width_, u * slope / (half_width_ * half_width_)};
+  const double w = half_width_;
+  return {0.5 + u * step, delta / w, u * slope / (w * w), bend / (w * w * w)};
 }
 
 } // namespace lamella

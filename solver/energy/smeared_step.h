@@ -29,7 +29,7 @@ public:
   static SmearedStep monotonic(double half_width);
 
   struct Value {
-    double step, delta, slope; ///< H, its derivative, its second derivative
+    double step, delta, slope, bend; ///< H and its first three derivatives
   };
   /// At a signed distance x from the boundary.
   Value at(double x) const;

@@ -1,5 +1,6 @@
 #include "energy/surface_energy.h"
 
+#include "energy/gradient.h"
 #include "energy/helfrich.h"
 #include "energy/linear.h"
 #include "energy/monomial.h"
@@ -11,7 +12,9 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <optional>
 #include <stdexcept>
+#include <tuple>
 
 namespace lamella {
 
@@ -27,9 +30,10 @@ using MixedQuartic = Monomial<Term::mixed_quartic, 2, 1>;
 using GaussianSquare = Monomial<Term::gaussian_square, 0, 2>;
 using Geodesic = Monomial<Term::geodesic, 0, 1>;
 
-/// The sum of everything is F = Lap_s f_M + (K_M^2 - 2 K) f_M + K_M Lap_s f_K - B : grad grad f_K +
-/// K_M K f_K - K_M f, with partial derivatives f_M, f_K of the density f (docs/theory.md, which has
-/// a picture of the way to it).
+/// The sum of everything is F = Lap_s g + (K_M^2 - 2 K) g + K_M Lap_s f_K - B : grad grad f_K +
+/// K_M K f_K + 2 f_X B(grad K_M, grad K_M) - K_M f, with partial derivatives f_M, f_K and f_X by
+/// X = |grad_s K_M|^2 of the density f, g = f_M - 2 div_s(f_X grad_s K_M) (docs/theory.md,
+/// which has a picture of the way to it).
 Lanes variation_of(const Lanes& f, const Partials<AffineJet>& by, const Lanes& KM, const Lanes& K) {
   return by.by_KM.lap + (KM * KM - 2 * K) * by.by_KM.f + KM * (K * by.by_K.f - f);
 }
@@ -112,15 +116,49 @@ Jet load_jets(std::span<const SurfaceJet<double>> jets, std::size_t first, std::
   return out;
 }
 
-Jet smeared(const SmearedStep& profile, const Jet& psi) {
-  Lanes step, delta, slope;
+/// A step, and its derivative by psi.
+Dual<Jet> smeared(const SmearedStep& profile, const Jet& psi) {
+  Lanes step, delta, slope, bend;
   for (std::size_t l = 0; l < lanes; l++) {
     const SmearedStep::Value v = profile.at(psi.f[l]);
     step[l] = v.step;
     delta[l] = v.delta;
     slope[l] = v.slope;
+    bend[l] = v.bend;
   }
-  return compose(step, delta, slope, psi);
+  return {compose(step, delta, slope, psi), compose(delta, slope, bend, psi)};
+}
+
+/// The inner product of two tensors along the membrane, xx, yy, zz, xy, xz, yz.
+Lanes contracted(const std::array<Lanes, 6>& a, const std::array<Lanes, 6>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+
+/// p = grad_s psi . grad_s K_M, but for its B_grad and B_hess. By Bochner's formula
+///   Lap_s p = 2 grad grad psi : grad grad K_M + grad psi . grad Lap_s K_M
+///             + grad Lap_s psi . grad K_M + 2 K p.
+Jet product_of_gradients(const SurfaceGeometry& surface, const SurfacePoint<Jet>& p, const Jet& psi,
+                         std::span<const SurfaceEnergy::Strip::Further> further,
+                         const Scattered& at) {
+  std::array<Lanes, 6> of_psi, of_KM;
+  std::array<Lanes, 3> grad_lap_psi, grad_lap_KM;
+  for (int c = 0; c < 6; c++) {
+    of_KM[c] = load(surface.hess_KM(c), at);
+    for (std::size_t l = 0; l < lanes; l++)
+      of_psi[c][l] = further[std::min(l, at.count - 1)].hess[c];
+  }
+  for (int d = 0; d < 3; d++) {
+    grad_lap_KM[d] = load(surface.grad_lap_KM(d), at);
+    for (std::size_t l = 0; l < lanes; l++)
+      grad_lap_psi[d][l] = further[std::min(l, at.count - 1)].grad_lap[d];
+  }
+  Jet product = constant<Jet>(0);
+  product.f = dot(psi.grad, p.KM.grad);
+  const std::array<Lanes, 3> by_psi = times(of_psi, p.KM.grad), by_KM = times(of_KM, psi.grad);
+  for (int d = 0; d < 3; d++) product.grad[d] = by_psi[d] + by_KM[d];
+  product.lap = 2 * contracted(of_psi, of_KM) + dot(psi.grad, grad_lap_KM) +
+                dot(grad_lap_psi, p.KM.grad) + 2 * p.K.f * product.f;
+  return product;
 }
 
 /// 0 in Ld, 1 in Lo.
@@ -144,6 +182,23 @@ double integral(const SurfaceGeometry& surface, std::span<const double> density,
   });
 }
 } // namespace
+
+/// |grad_s K_M|^2 at eight places, with what its variation needs.
+struct SurfaceEnergy::GradientSquare {
+  Lanes slope2, B_slope2;        ///< |grad_s K_M|^2, B(grad_s K_M, grad_s K_M)
+  Jet lap;                       ///< Lap_s K_M, but for its B_grad and B_hess
+  Jet across = constant<Jet>(0); ///< grad_s psi . grad_s K_M, in the strip, but for the same
+  Steps<Jet> slopes;             ///< derivatives of the steps by psi
+
+  template <class Where>
+  GradientSquare(const SurfaceGeometry& surface, const Jet& KM, const Where& at)
+      : slope2(dot(KM.grad, KM.grad)), B_slope2(dot(KM.grad, KM.B_grad)), lap(constant<Jet>(0)) {
+    slopes.accurate = slopes.moments = slopes.monotonic = constant<Jet>(0);
+    lap.f = KM.lap;
+    for (int d = 0; d < 3; d++) lap.grad[d] = load(surface.grad_lap_KM(d), at);
+    lap.lap = load(surface.lap_lap_KM(), at);
+  }
+};
 
 SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& membrane, const Parameters& parameters)
     : SurfaceEnergy(membrane, membrane, 0, StepProfiles::of_grid(1), parameters) {}
@@ -169,6 +224,7 @@ SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo,
   add_if<Quartic>(both(&M::quartic_modulus, Profile::monotonic));
   add_if<MixedQuartic>(both(&M::mixed_quartic_modulus, Profile::monotonic));
   add_if<GaussianSquare>(both(&M::gaussian_square_modulus, Profile::monotonic));
+  add_if<Gradient>(both(&M::gradient_modulus, Profile::monotonic));
   add_if<Geodesic>({geodesic_modulus, 0, Profile::moments});
   if (!ld.density.empty() || !lo.density.empty())
     add(std::make_shared<TextDensity>(ld.density, lo.density, names_on_membrane(parameters)));
@@ -200,6 +256,10 @@ bool SurfaceEnergy::differs() const {
   return std::ranges::any_of(terms_, [](const auto& t) { return t->differs_between_phases(); });
 }
 
+bool SurfaceEnergy::gradient_differs() const {
+  return std::ranges::any_of(terms_, [](const auto& t) { return t->of_gradient().differs(); });
+}
+
 bool SurfaceEnergy::is_affine() const {
   return std::ranges::all_of(terms_,
                              [](const auto& t) { return t->needs() == Derivatives::laplacian; });
@@ -215,54 +275,84 @@ void SurfaceEnergy::find_forces(const SurfaceGeometry& surface, std::span<const 
   find_strip(surface, strip, variation);
 }
 
+/// `square`: null where no term is of the gradient of K_M.
 template <class N, class Where>
-void SurfaceEnergy::find_at(const SurfacePoint<N>& p, const Where& at,
+void SurfaceEnergy::find_at(const SurfacePoint<N>& p, const GradientSquare* square, const Where& at,
                             std::span<double> variation) {
   Partials<N> by;
-  Lanes f = Lanes{};
+  Lanes f = Lanes{}, of_square = Lanes{};
   for (std::size_t t = 0; t < terms_.size(); t++) {
-    const Lanes density = terms_[t]->add(p, by);
+    Lanes density = terms_[t]->add(p, by);
+    if constexpr (std::is_same_v<N, Jet>)
+      if (const Coefficient modulus = terms_[t]->of_gradient(); !modulus.vanishes()) {
+        const Jet c = modulus.at(p.steps);
+        by.by_KM =
+            by.by_KM - 2 * (c * square->lap + modulus.slope(square->slopes) * square->across);
+        density += c.f * square->slope2;
+        of_square += 2 * c.f * square->B_slope2;
+      }
     for (std::size_t l = 0; l < at.count; l++) density_[t][at[l]] = density[l];
     f += density;
   }
-  const Lanes F = variation_of(f, by, value_of(p.KM), value_of(p.K));
+  const Lanes F = variation_of(f, by, value_of(p.KM), value_of(p.K)) + of_square;
   for (std::size_t l = 0; l < at.count; l++) variation[at[l]] = F[l];
 }
 
 template <class N>
 void SurfaceEnergy::find_bulk(const SurfaceGeometry& surface, std::span<const char> is_Ld,
                               std::span<double> variation) {
+  const bool has_gradient = needs() == Derivatives::sixth;
   parallel_for(surface.size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; first += lanes) {
       const Consecutive at{first, std::min(lanes, end - first)};
       SurfacePoint<N> p;
       load_curvatures(surface, at, p);
       p.steps.accurate = p.steps.moments = p.steps.monotonic = step_apart<N>(is_Ld, at);
-      find_at(p, at, variation);
+      std::optional<GradientSquare> square;
+      if constexpr (std::is_same_v<N, Jet>)
+        if (has_gradient) square.emplace(surface, p.KM, at);
+      find_at(p, square ? &*square : nullptr, at, variation);
     }
   });
 }
 
 void SurfaceEnergy::find_strip(const SurfaceGeometry& surface, const Strip& strip,
                                std::span<double> variation) {
+  const bool has_gradient = needs() == Derivatives::sixth;
   parallel_for(strip.sample.size(), strip_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; first += lanes) {
       const Scattered at{&strip.sample[first], std::min(lanes, end - first)};
       SurfacePoint<Jet> p;
       load_curvatures(surface, at, p);
       const Jet psi = load_jets(strip.psi, first, at.count);
-      p.steps = {smeared(profiles_.accurate, psi), smeared(profiles_.moments, psi),
-                 smeared(profiles_.monotonic, psi)};
-      find_at(p, at, variation);
+      const Dual<Jet> accurate = smeared(profiles_.accurate, psi),
+                      moments = smeared(profiles_.moments, psi),
+                      monotonic = smeared(profiles_.monotonic, psi);
+      p.steps = {accurate.f, moments.f, monotonic.f};
+      std::optional<GradientSquare> square;
+      if (has_gradient) {
+        square.emplace(surface, p.KM, at);
+        square->slopes = {accurate.d, moments.d, monotonic.d};
+        if (!strip.further.empty())
+          square->across =
+              product_of_gradients(surface, p, psi, std::span(strip.further).subspan(first), at);
+      }
+      find_at(p, square ? &*square : nullptr, at, variation);
     }
   });
 }
 
 /// A wave changes K_M by -k^2 and K by -k^2 q, where q is the curvature across its direction, of
-/// all that there are at a sample: f_MM + 2 f_MK q + f_KK q^2.
+/// all that there are at a sample: f_MM + 2 f_MK q + f_KK q^2; and its gradient by k^3.
 SurfaceEnergy::Stiffness SurfaceEnergy::stiffness(const SurfaceGeometry& surface,
                                                   std::span<const char> is_Ld) const {
   Stiffness all{1e300, -1e300};
+  Coefficient gradient;
+  for (const auto& term : terms_) {
+    gradient.ld += term->of_gradient().ld;
+    gradient.lo += term->of_gradient().lo;
+  }
+  std::tie(all.least_gradient, all.most_gradient) = std::minmax(2 * gradient.ld, 2 * gradient.lo);
   // Where it does not depend on curvatures, one place of each phase tells.
   const std::size_t end = is_affine() ? std::min(lanes, surface.size()) : surface.size();
   for (std::size_t first = 0; first < end; first += lanes) {
@@ -288,19 +378,20 @@ SurfaceEnergy::Stiffness SurfaceEnergy::stiffness(const SurfaceGeometry& surface
   return all;
 }
 
-double SurfaceEnergy::density(double KM, double K) const {
+double SurfaceEnergy::density(double KM, double K, double slope2) const {
   const SurfacePoint<Univariate> p{constant<Univariate>(KM), constant<Univariate>(K), {}};
   double sum = 0;
-  for (const auto& term : terms_) sum += term->across(p).f;
+  for (const auto& term : terms_) sum += term->across(p).f + term->of_gradient().ld * slope2;
   return sum;
 }
 
-Univariate SurfaceEnergy::across(double psi, double KM, double K) const {
+Univariate SurfaceEnergy::across(double psi, double KM, double K, double slope2) const {
   const SurfacePoint<Univariate> p{constant<Univariate>(KM), constant<Univariate>(K),
                                    profiles_.at(psi)};
   Univariate sum;
   for (const auto& term : terms_)
-    if (term->differs_between_phases()) sum = sum + term->across(p);
+    if (term->differs_between_phases())
+      sum = sum + term->across(p) + slope2 * term->of_gradient().at(p.steps);
   return sum;
 }
 

@@ -18,6 +18,12 @@ public:
   struct Strip {
     std::vector<int> sample;
     std::vector<SurfaceJet<double>> psi; ///< distance from the boundary, < 0 in Ld
+    /// What is known of psi besides where the phases have different gradient moduli.
+    struct Further {
+      std::array<double, 6> hess;     ///< grad_s grad_s psi: xx, yy, zz, xy, xz, yz
+      std::array<double, 3> grad_lap; ///< grad_s Lap_s psi
+    };
+    std::vector<Further> further; ///< empty where they are the same
   };
 
   /// Nothing but the terms of a membrane of one phase. `parameters`: of densities as text.
@@ -36,6 +42,8 @@ public:
   Derivatives needs() const;
   /// Whether the phases have different moduli.
   bool differs() const;
+  /// Whether they have different moduli of the gradient of K_M.
+  bool gradient_differs() const;
 
   /// The variation F at the samples: a displacement u along N changes the energy by int F u dA.
   /// `is_Ld`: of samples off the strip; empty: one phase. Energies are then those of these samples.
@@ -43,19 +51,23 @@ public:
                    std::span<double> variation);
 
   /// How strongly short waves are resisted: the energy of a normal displacement by a wave of wave
-  /// number k is k^4 / 2 times its square times a number between these.
+  /// number k is k^4 / 2 times its square times a number between the first two, and k^6 / 2 times
+  /// its square times one between those of the gradient of K_M.
   struct Stiffness {
     double least = 0, most = 0;
     std::size_t softest = 0; ///< the sample where it is least
+    double least_gradient = 0, most_gradient = 0;
   };
   /// Over the samples, `is_Ld` as above.
   Stiffness stiffness(const SurfaceGeometry& surface, std::span<const char> is_Ld) const;
 
   /// Energy density along a way across the phase boundary, where the distance from it is psi.
-  Univariate across(double psi, double KM, double K) const;
+  /// `slope2`: |grad_s K_M|^2; only where gradient_differs().
+  Univariate across(double psi, double KM, double K, double slope2) const;
 
-  /// Energy density of a membrane of one phase at a point.
-  double density(double KM, double K) const;
+  /// Energy density of a membrane of one phase at a point. `slope2`: |grad_s K_M|^2; only where
+  /// Derivatives::sixth are needed.
+  double density(double KM, double K, double slope2 = 0) const;
 
   /// Adds the energies of the terms to those that are there.
   void find_energies(const SurfaceGeometry& surface, EnergyTerms& terms) const;
@@ -67,8 +79,10 @@ private:
   void add_if(const Coefficient& modulus);
   /// No partial derivative is more than affine in K_M where coefficients do not vary.
   bool is_affine() const;
+  struct GradientSquare;
   template <class N, class Where>
-  void find_at(const SurfacePoint<N>& p, const Where& at, std::span<double> variation);
+  void find_at(const SurfacePoint<N>& p, const GradientSquare* gradient, const Where& at,
+               std::span<double> variation);
   template <class N>
   void find_bulk(const SurfaceGeometry& surface, std::span<const char> is_Ld,
                  std::span<double> variation);

@@ -33,7 +33,7 @@ struct SecondPartials {
 /// A term of the Hamiltonian that is an integral over the membrane, int f(K_M, K) dA, with
 /// coefficients that may differ between phases (Eq. 5). Every add() returns the density f at the
 /// places and adds its partial derivatives: as jets for the variation where all is smooth, as plain
-/// numbers for the weak form.
+/// numbers for the weak form. On top of f comes of_gradient() times |grad_s K_M|^2.
 class SurfaceTerm {
 public:
   virtual ~SurfaceTerm() = default;
@@ -42,6 +42,8 @@ public:
   /// Where coefficients do not vary.
   virtual Derivatives needs() const = 0;
   virtual bool differs_between_phases() const = 0;
+  /// Energy length^2. Terms that have it need Derivatives::sixth.
+  virtual Coefficient of_gradient() const { return {}; }
 
   /// Only for terms that need no more than the Laplacian, where coefficients do not vary.
   virtual Lanes add(const SurfacePoint<AffineJet>& at, Partials<AffineJet>& sum) const = 0;

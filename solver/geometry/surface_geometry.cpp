@@ -13,6 +13,10 @@ constexpr double least_reach = 1.8; // spacings; linear interpolation needs no m
 // crease in the middle between two.
 constexpr double first_probe = 3, near_opposite = 1.5, longest_stride = 4, thickest = 24;
 constexpr std::size_t samples_per_task = 256;
+
+auto jets_kernel(Derivatives wanted) {
+  return wanted >= Derivatives::all ? kernels().full_jets : kernels().jets;
+}
 } // namespace
 
 void SurfaceGeometry::sample(const LevelSet& phi, const NarrowBand& band) {
@@ -51,7 +55,7 @@ void SurfaceGeometry::curvatures(const LevelSet& phi, NarrowBand& band) {
 
 void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band, Derivatives wanted) {
   make_room(wanted);
-  evaluate(phi, band, wanted == Derivatives::all ? kernels().full_jets : kernels().jets, wanted);
+  evaluate(phi, band, jets_kernel(wanted), wanted);
 }
 
 void SurfaceGeometry::jets_at(const LevelSet& phi, std::span<const Vec3> points,
@@ -60,7 +64,7 @@ void SurfaceGeometry::jets_at(const LevelSet& phi, std::span<const Vec3> points,
   resize(points.size());
   make_room(wanted);
   const SplineView spline = phi.view();
-  const auto kernel = wanted == Derivatives::all ? kernels().full_jets : kernels().jets;
+  const auto kernel = jets_kernel(wanted);
   parallel_for(size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
       x_[i] = points[i][0];
@@ -78,9 +82,14 @@ void SurfaceGeometry::make_room(Derivatives wanted) {
     for (Array<double>& a : grad_KM_) a.resize(size());
     for (Array<double>& a : B_) a.resize(size());
   }
-  if (wanted == Derivatives::all) {
+  if (wanted >= Derivatives::all) {
     for (Array<double>& a : grad_K_) a.resize(size());
     for (Array<double>* a : {&B_hess_KM_, &lap_K_, &B_hess_K_}) a->resize(size());
+  }
+  if (wanted == Derivatives::sixth) {
+    for (Array<double>& a : hess_KM_) a.resize(size());
+    for (Array<double>& a : grad_lap_KM_) a.resize(size());
+    lap_lap_KM_.resize(size());
   }
 }
 
@@ -97,12 +106,14 @@ SurfaceArrays SurfaceGeometry::arrays_from(std::size_t i, Derivatives wanted) {
     for (int d = 0; d < 3; d++) out.grad_KM[d] = &grad_KM_[d][i];
     for (int c = 0; c < 6; c++) out.B[c] = &B_[c][i];
   }
-  if (wanted == Derivatives::all) {
+  if (wanted >= Derivatives::all) {
     for (int d = 0; d < 3; d++) out.grad_K[d] = &grad_K_[d][i];
     out.B_hess_KM = &B_hess_KM_[i];
     out.lap_K = &lap_K_[i];
     out.B_hess_K = &B_hess_K_[i];
   }
+  if (wanted == Derivatives::sixth)
+    for (int c = 0; c < 6; c++) out.hess_KM[c] = &hess_KM_[c][i];
   return out;
 }
 
@@ -136,6 +147,25 @@ void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t en
   }
 }
 
+void SurfaceGeometry::differentiate(const LevelSet& lap_KM) {
+  const ConstPoints p = points();
+  parallel_for(size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
+    const std::size_t n = end - begin;
+    double taylor[10 * samples_per_task];
+    kernels().taylor(lap_KM.view(), n, {p.x + begin, p.y + begin, p.z + begin}, taylor);
+    for (std::size_t j = 0; j < n; j++) {
+      const auto at = [&](int m) { return taylor[m * n + j]; };
+      const std::size_t i = begin + j;
+      const Vec3 N = normal(i);
+      const double along = at(1) * N[0] + at(2) * N[1] + at(3) * N[2],
+                   twice = N[0] * N[0] * at(4) + N[1] * N[1] * at(5) + N[2] * N[2] * at(6) +
+                           2 * (N[0] * N[1] * at(7) + N[0] * N[2] * at(8) + N[1] * N[2] * at(9));
+      for (int d = 0; d < 3; d++) grad_lap_KM_[d][i] = at(1 + d) - along * N[d];
+      lap_lap_KM_[i] = at(4) + at(5) + at(6) - twice + KM_[i] * along;
+    }
+  });
+}
+
 void SurfaceGeometry::displace(std::size_t i, double distance, NarrowBand& band) {
   x_[i] += distance * nx_[i];
   y_[i] += distance * ny_[i];
@@ -159,6 +189,15 @@ double SurfaceGeometry::thickness(std::size_t i, const NarrowBand& band) const {
     way += -d - h;
   }
   return furthest;
+}
+
+std::vector<double> squared_gradient_of_KM(const LevelSet& phi, std::span<const Vec3> points) {
+  SurfaceGeometry surface;
+  surface.jets_at(phi, points, Derivatives::gradient);
+  std::vector<double> square(points.size(), 0);
+  for (std::size_t i = 0; i < square.size(); i++)
+    for (int d = 0; d < 3; d++) square[i] += surface.grad_KM(d)[i] * surface.grad_KM(d)[i];
+  return square;
 }
 
 } // namespace lamella

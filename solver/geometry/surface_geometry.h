@@ -14,7 +14,8 @@ namespace lamella {
 enum class Derivatives {
   laplacian, ///< Lap_s K_M
   gradient,  ///< also grad_s K_M and the curvature tensor B
-  all        ///< also B : grad_s grad_s K_M, and the same of K
+  all,       ///< also B : grad_s grad_s K_M, and the same of K
+  sixth      ///< also grad_s grad_s K_M and, by differentiate(), the same of Lap_s K_M as of K_M
 };
 
 /// The membrane as a cloud of samples: the nearest points of the band nodes within a few spacings
@@ -37,6 +38,9 @@ public:
   void jets(const LevelSet& phi, NarrowBand& band, Derivatives wanted = Derivatives::laplacian);
   /// The same at points on the membrane that are given, without weights.
   void jets_at(const LevelSet& phi, std::span<const Vec3> points, Derivatives wanted);
+  /// Derivatives of Lap_s K_M, from a field that continues it (LaplacianField); those of sixth
+  /// order wanted.
+  void differentiate(const LevelSet& lap_KM);
   /// What the last jets() found.
   Derivatives derivatives() const { return derivatives_; }
 
@@ -65,6 +69,10 @@ public:
   /// B : grad_s grad_s K_M, and of K.
   std::span<const double> B_hess_KM() const { return B_hess_KM_; }
   std::span<const double> B_hess_K() const { return B_hess_K_; }
+  /// grad_s grad_s K_M: xx, yy, zz, xy, xz, yz.
+  std::span<const double> hess_KM(int component) const { return hess_KM_[component]; }
+  std::span<const double> grad_lap_KM(int axis) const { return grad_lap_KM_[axis]; }
+  std::span<const double> lap_lap_KM() const { return lap_lap_KM_; }
   /// Largest |principal curvature|, before K_M and K were limited to what the grid can carry.
   double sharpest(std::size_t i) const { return sharpest_[i]; }
   /// int f dA = sum of weight f.
@@ -88,9 +96,12 @@ private:
   SecondSheets second_;
   Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, sharpest_, weight_;
   Derivatives derivatives_ = Derivatives::laplacian;
-  std::array<Array<double>, 3> grad_KM_, grad_K_;
-  std::array<Array<double>, 6> B_;
-  Array<double> B_hess_KM_, lap_K_, B_hess_K_;
+  std::array<Array<double>, 3> grad_KM_, grad_K_, grad_lap_KM_;
+  std::array<Array<double>, 6> B_, hess_KM_;
+  Array<double> B_hess_KM_, lap_K_, B_hess_K_, lap_lap_KM_;
 };
+
+/// |grad_s K_M|^2 at points on the membrane.
+std::vector<double> squared_gradient_of_KM(const LevelSet& phi, std::span<const Vec3> points);
 
 } // namespace lamella

@@ -35,6 +35,7 @@ struct SurfaceArrays {
   double* B_hess_KM = nullptr; ///< B : grad_s grad_s KM
   double* grad_K[3] = {};      ///< surface gradient of K
   double *lap_K = nullptr, *B_hess_K = nullptr; ///< Lap_s K, B : grad_s grad_s K
+  double* hess_KM[6] = {};                      ///< grad_s grad_s KM, xx, yy, zz, xy, xz, yz
 };
 
 /// One step of the blended SBDF2/Euler scheme in Fourier space, for a row of modes along x.
@@ -45,8 +46,8 @@ struct SpectralRow {
   double k2;                ///< squared wave number across the row
   double scale;             ///< 1 / (symbol across the row * number of nodes)
   double dt, ratio;         ///< step, step / previous step (0: no history, Euler)
-  double stiffness;         ///< implicit symbol: dt (stiffness k^4 + tension k^2)
-  double tension;
+  /// Implicit symbol: dt [gradient k^6 / (1 + levelling k^4) + stiffness k^4 + tension k^2].
+  double gradient, levelling, stiffness, tension;
   double blend;         ///< z0: modes with implicit symbol far above it take Euler
   double least_history; ///< share of SBDF2 that stiff modes keep
   double fade;          ///< z1: beyond it modes lose that too
@@ -71,13 +72,17 @@ struct Kernels {
 
   /// SurfaceArrays down to lap_KM, grad_KM and B where they are wanted.
   void (*jets)(const SplineView& spline, std::size_t n, ConstPoints p, const SurfaceArrays& out);
-  /// All of SurfaceArrays.
+  /// All of SurfaceArrays; hess_KM where it is wanted.
   void (*full_jets)(const SplineView& spline, std::size_t n, ConstPoints p,
                     const SurfaceArrays& out);
 
   /// Value, gradient (x, y, z) and Hessian (xx, yy, zz, xy, xz, yz) at points: out has ten arrays
   /// of n numbers, one after the other.
   void (*taylor)(const SplineView& spline, std::size_t n, ConstPoints p, double* out);
+
+  /// Third derivatives (xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz) at points: out has ten
+  /// arrays of n numbers.
+  void (*third)(const SplineView& spline, std::size_t n, ConstPoints p, double* out);
 
   /// Quasi-interpolant of nodal data: cubic B-spline with the data as coefficients, at points.
   void (*cubic)(const SplineView& data, std::size_t n, ConstPoints p, double* out);

@@ -274,17 +274,29 @@ LAMELLA_INLINE Taylor2 K_around(const GradientAndHessian& g, const Curvatures& c
   return (straight + crossed + crossed) * inverse_square(g.x2 + g.y2 + g.z2, c.inv_s);
 }
 
-/// B = -P H P / |g|.
-LAMELLA_INLINE Symmetric curvature_tensor(const V8* d, const Curvatures& c) {
-  const Symmetric H = hessian<4>(d);
+/// f P H P, P the projection along the surface.
+LAMELLA_INLINE Symmetric projected(V8 f, const Symmetric& H, const Curvatures& c) {
   const V8* N = c.normal;
   V8 HN[3], t[3];
   H.apply(N, HN);
-  const V8 NHN = dot(N, HN), f = -1.0 / c.grad;
+  const V8 NHN = dot(N, HN);
   for (int m = 0; m < 3; m++) t[m] = HN[m] - 0.5 * NHN * N[m]; // P H P = H - N t - t N
   return {f * (H.xx - 2.0 * N[0] * t[0]),         f * (H.yy - 2.0 * N[1] * t[1]),
           f * (H.zz - 2.0 * N[2] * t[2]),         f * (H.xy - N[0] * t[1] - N[1] * t[0]),
           f * (H.xz - N[0] * t[2] - N[2] * t[0]), f * (H.yz - N[1] * t[2] - N[2] * t[1])};
+}
+
+/// B = -P H P / |g|.
+LAMELLA_INLINE Symmetric curvature_tensor(const V8* d, const Curvatures& c) {
+  return projected(-1.0 / c.grad, hessian<4>(d), c);
+}
+
+/// grad_s grad_s F = P Hess(F) P + B N.grad F.
+LAMELLA_INLINE Symmetric surface_hessian(const Symmetric& B, const Taylor2& F, const Curvatures& c,
+                                         V8 along) {
+  const Symmetric H = projected(splat(1), {F.xx, F.yy, F.zz, F.xy, F.xz, F.yz}, c);
+  return {H.xx + along * B.xx, H.yy + along * B.yy, H.zz + along * B.zz,
+          H.xy + along * B.xy, H.xz + along * B.xz, H.yz + along * B.yz};
 }
 
 /// N.grad F.
@@ -354,6 +366,7 @@ void full_jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceA
     put(out.lap_KM, first, n, surface_laplacian(KM, c, along));
     put(out.B_hess_KM, first, n, times_hessian(B, KM, c, along));
     put_surface_gradient(KM, c, along, first, n, out.grad_KM);
+    if (out.hess_KM[0]) put_tensor(surface_hessian(B, KM, c, along), first, n, out.hess_KM);
     const Taylor2 K = K_around(g, c);
     along = along_normal(K, c);
     put(out.lap_K, first, n, surface_laplacian(K, c, along));
@@ -381,6 +394,20 @@ void taylor(const SplineView& s, std::size_t n, ConstPoints p, double* out) {
                         H.xz,
                         H.yz};
     for (int m = 0; m < 10; m++) put(out + m * n, first, n, all[m]);
+  }
+}
+
+/// xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz.
+void third(const SplineView& s, std::size_t n, ConstPoints p, double* out) {
+  constexpr const auto& slot = derivative_index<3>.slot;
+  for (std::size_t first = 0; first < n; first += 8) {
+    alignas(64) double q[3][8];
+    V8 d[derivative_index<3>.count];
+    gather(p, first, n, q);
+    derivatives<3>(s, q, d);
+    int m = 0;
+    for (int x = 3; x >= 0; x--)
+      for (int y = 3 - x; y >= 0; y--) put(out + m++ * n, first, n, d[slot[x][y][3 - x - y]]);
   }
 }
 
@@ -415,13 +442,22 @@ void cubic(const SplineView& s, std::size_t n, ConstPoints points, double* out) 
 // -------------------------------------------------------------------------------------------
 // spectral step
 
-void spectral_row(const SpectralRow& row, double* __restrict rate, double* __restrict rate_old,
-                  double* __restrict increment_old, const double* __restrict correction,
-                  double correction_factor) {
+/// `sixth`: whether there is a part of sixth order.
+template <bool sixth>
+LAMELLA_INLINE double implicit_symbol(const SpectralRow& row, double k2) {
+  double stiffness = row.stiffness;
+  if constexpr (sixth) stiffness += row.gradient * k2 / (1 + row.levelling * k2 * k2);
+  return row.dt * k2 * (stiffness * k2 + row.tension);
+}
+
+template <bool sixth>
+LAMELLA_INLINE void advance_row(const SpectralRow& row, double* __restrict rate,
+                                double* __restrict rate_old, double* __restrict increment_old,
+                                const double* __restrict correction, double correction_factor) {
   const double w = row.ratio, gain = (1 + 2 * w) / (1 + w) - 1, memory = w * w / (1 + w),
                inv_z0 = 1 / row.blend, inv_z1 = 1 / row.fade;
   for (int e = 0; e < 2 * row.modes; e++) {
-    const double k2 = row.kx2[e] + row.k2, z = row.dt * k2 * (row.stiffness * k2 + row.tension);
+    const double k2 = row.kx2[e] + row.k2, z = implicit_symbol<sixth>(row, k2);
     const double theta =
         row.least_history / (1 + z * inv_z1) + (1 - row.least_history) / (1 + z * inv_z0);
     const double r = rate[e] * row.scale * row.inv_symbol[e];
@@ -435,11 +471,26 @@ void spectral_row(const SpectralRow& row, double* __restrict rate, double* __res
   }
 }
 
-void euler_row(const SpectralRow& row, double* __restrict rate) {
-  for (int e = 0; e < 2 * row.modes; e++) {
-    const double k2 = row.kx2[e] + row.k2, z = row.dt * k2 * (row.stiffness * k2 + row.tension);
-    rate[e] *= row.dt * row.scale * row.inv_symbol[e] / (1 + z);
-  }
+void spectral_row(const SpectralRow& row, double* rate, double* rate_old, double* increment_old,
+                  const double* correction, double correction_factor) {
+  if (row.gradient > 0)
+    advance_row<true>(row, rate, rate_old, increment_old, correction, correction_factor);
+  else
+    advance_row<false>(row, rate, rate_old, increment_old, correction, correction_factor);
+}
+
+template <bool sixth>
+LAMELLA_INLINE void advance_row_by_euler(const SpectralRow& row, double* __restrict rate) {
+  for (int e = 0; e < 2 * row.modes; e++)
+    rate[e] *= row.dt * row.scale * row.inv_symbol[e] /
+               (1 + implicit_symbol<sixth>(row, row.kx2[e] + row.k2));
+}
+
+void euler_row(const SpectralRow& row, double* rate) {
+  if (row.gradient > 0)
+    advance_row_by_euler<true>(row, rate);
+  else
+    advance_row_by_euler<false>(row, rate);
 }
 
 } // namespace
@@ -455,6 +506,7 @@ const Kernels table = {LAMELLA_STRING(LAMELLA_ISA),
                        jets,
                        full_jets,
                        taylor,
+                       third,
                        cubic,
                        spectral_row,
                        euler_row};

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,5 +18,14 @@ struct Taylor {
 
 /// The spline's own derivatives at points, in their order.
 std::vector<Taylor> taylor(const LevelSet& f, std::span<const Eigen::Vector3d> points);
+
+/// The derivatives of a Hessian by x, y and z.
+struct ThirdDerivatives {
+  std::array<Eigen::Matrix3d, 3> by;
+};
+
+/// Of the spline at points, in their order.
+std::vector<ThirdDerivatives> third_derivatives(const LevelSet& f,
+                                                std::span<const Eigen::Vector3d> points);
 
 } // namespace lamella

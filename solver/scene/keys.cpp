@@ -55,6 +55,8 @@ std::vector<Key> moduli(std::string_view name, const std::vector<std::string_vie
        "energy length²", any, cases, "of K_M² K"},
       {name, "gaussian_square_modulus", member<section, &M::gaussian_square_modulus>(),
        "energy length²", any, cases, "of K²"},
+      {name, "gradient_modulus", member<section, &M::gradient_modulus>(), "energy length²",
+       not_negative, cases, "of the square of the gradient of K_M along the membrane"},
       {name, "density", member<section, &M::density>(), "energy/length²", any, cases,
        "one more energy per area, a formula of KM and K", "none"},
   };

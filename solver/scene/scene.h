@@ -54,6 +54,7 @@ struct SurfaceModuli {
   double quartic_modulus = 0;         ///< of K_M^4: energy length^2
   double mixed_quartic_modulus = 0;   ///< of K_M^2 K: energy length^2
   double gaussian_square_modulus = 0; ///< of K^2: energy length^2
+  double gradient_modulus = 0;        ///< of |grad_s K_M|^2: energy length^2
   std::string density{}; ///< formula of one more density, see scene/densities.h; empty: none
 
   bool operator==(const SurfaceModuli&) const = default;

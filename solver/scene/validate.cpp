@@ -130,7 +130,7 @@ private:
       why = "is the reduced volume of the sphere: write kind = \"sphere\" and radius";
     else if (key.name == "reduced_volume" && x > 1)
       why = "is more than the sphere's 1, which no closed surface exceeds";
-    else if (key.name.ends_with("_square_modulus") && x < 0)
+    else if ((key.name.ends_with("_square_modulus") || key.name == "gradient_modulus") && x < 0)
       why = "leaves the energy without a lower bound";
     const std::string path = key.path() + name;
     refuse({path}, fmt::format("{} {}; allowed: {}", x, why, allowed_text(key)));
@@ -266,7 +266,8 @@ private:
     if (line.perpendicular_modulus != 0)
       refuse({"line.perpendicular_modulus"},
              "the energy has no lower bound: bending moduli do not control the curvature across a "
-             "line, only a modulus of the gradient of K_M would; allowed: 0");
+             "line; a gradient_modulus of both phases would, but with that this release does not "
+             "know the force; allowed: 0");
     if (torsion == 0 && normal == 0) return;
     const double unstable = std::numbers::pi / 2 * (torsion * torsion + normal * normal) / kappa,
                  shortest = longest_unstable_wave * scene_.grid().spacing,

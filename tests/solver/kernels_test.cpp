@@ -121,6 +121,7 @@ TEST_P(EachKernels, FindWholeJets) {
   full.B_hess_KM = out[20].data();
   full.lap_K = out[21].data();
   full.B_hess_K = out[22].data();
+  for (int c = 0; c < 6; c++) full.hess_KM[c] = out[24 + c].data();
   GetParam()->full_jets(q.phi.view(), n, p.points(), full);
   std::vector<double> lap_KM = out[7];
   GetParam()->jets(q.phi.view(), n, p.points(), arrays(0));
@@ -132,6 +133,13 @@ TEST_P(EachKernels, FindWholeJets) {
     double square = 0;
     for (int c = 0; c < 6; c++) square += (c < 3 ? 1 : 2) * *B[c] * *B[c];
     EXPECT_NEAR(square, full.KM[i] * full.KM[i] - 2 * full.K[i], 1e-9);
+    double trace = 0, with_B = 0;
+    for (int c = 0; c < 6; c++) {
+      if (c < 3) trace += full.hess_KM[c][i];
+      with_B += (c < 3 ? 1 : 2) * *B[c] * full.hess_KM[c][i];
+    }
+    EXPECT_NEAR(trace, lap_KM[i], 1e-9 * std::abs(lap_KM[i]) + 1e-9);
+    EXPECT_NEAR(with_B, full.B_hess_KM[i], 1e-9 * std::abs(with_B) + 1e-9);
     double along_KM = 0, along_K = 0;
     const double N[3] = {full.nx[i], full.ny[i], full.nz[i]};
     for (int d = 0; d < 3; d++) {
@@ -140,6 +148,28 @@ TEST_P(EachKernels, FindWholeJets) {
     }
     EXPECT_NEAR(along_KM, 0, 1e-9);
     EXPECT_NEAR(along_K, 0, 1e-9);
+  }
+}
+
+TEST_P(EachKernels, FindThirdDerivatives) {
+  LevelSet f(Grid::cube(16, 1));
+  for (std::size_t i = 0; i < f.grid().size(); i++) {
+    const Vec3 x = f.grid().position(i);
+    f.coefficients()[i] = std::cos(M_PI * x[0] + x[1] * x[2]) * std::sin(2 + x[1]);
+  }
+  const double e = 1e-4;
+  const std::vector<double> x{0.1, 0.1 + e, 0.1 - e, 0.1, 0.1, 0.1, 0.1},
+      y{0.2, 0.2, 0.2, 0.2 + e, 0.2 - e, 0.2, 0.2}, z{-.3, -.3, -.3, -.3, -.3, -.3 + e, -.3 - e};
+  const std::size_t n = x.size();
+  std::vector<double> taylor(10 * n), third(10 * n);
+  GetParam()->taylor(f.view(), n, {x.data(), y.data(), z.data()}, taylor.data());
+  GetParam()->third(f.view(), n, {x.data(), y.data(), z.data()}, third.data());
+  // By which axis which of xx, yy, zz, xy, xz, yz gives xxx, xxy, xxz, xyy, xyz, xzz ...
+  constexpr int axis[10]{0, 1, 2, 1, 2, 2, 1, 2, 2, 2}, hessian[10]{0, 0, 0, 3, 3, 4, 1, 1, 5, 2};
+  for (int m = 0; m < 10; m++) {
+    const double* second = &taylor[(4 + hessian[m]) * n];
+    const double exact = (second[1 + 2 * axis[m]] - second[2 + 2 * axis[m]]) / (2 * e);
+    EXPECT_NEAR(third[m * n], exact, 1e-5 * std::abs(exact) + 1e-5) << m;
   }
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "geometry/laplacian_field.h"
 #include "geometry/surface_geometry.h"
 #include "scene/shapes.h"
 
@@ -33,6 +34,12 @@ struct StartSurface {
     band.update(phi);
     geometry.sample(phi, band);
     geometry.jets(phi, band);
+  }
+
+  /// All that there is to know.
+  void differentiate() {
+    geometry.jets(phi, band, Derivatives::sixth);
+    geometry.differentiate(lap_KM_around(phi, band, geometry));
   }
 };
 

@@ -256,6 +256,7 @@ TEST(MembraneSurface, MovesAsAllForcesSay) {
   scene.shape = {.kind = ShapeKind::oblate, .semi_axis = 0.7, .reduced_volume = 0.6};
   EXPECT_LT(error_of_velocity(scene), 0.01) << "bending";
   scene.membrane.quartic_modulus = scene.membrane.gaussian_square_modulus = 1e-3;
+  scene.membrane.gradient_modulus = 1e-3;
   EXPECT_LT(error_of_velocity(scene), 0.01) << "higher powers of curvature";
   scene.membrane = {};
   scene.contact.disjoining_pressure = 3e4;

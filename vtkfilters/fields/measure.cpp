@@ -6,6 +6,7 @@
 #include "energy/surface_energy.h"
 #include "fields/image.h"
 #include "fields/spline_geometry.h"
+#include "geometry/laplacian_field.h"
 #include "geometry/phase_boundary.h"
 #include "levelset/critical_points.h"
 #include "levelset/topology.h"
@@ -39,6 +40,7 @@ struct Sampled {
     band.update(phi);
     surface.sample(phi, band);
     surface.jets(phi, band, wanted);
+    if (wanted == Derivatives::sixth) surface.differentiate(lap_KM_around(phi, band, surface));
   }
 };
 

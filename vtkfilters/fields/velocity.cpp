@@ -3,11 +3,13 @@
 #include "dynamics/phases.h"
 #include "energy/film.h"
 #include "energy/surface_energy.h"
+#include "geometry/laplacian_field.h"
 #include "levelset/extension.h"
 #include "levelset/level_set.h"
 #include "levelset/taylor.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace lamella {
 namespace {
@@ -110,25 +112,40 @@ private:
   Fourier fourier_;
 };
 
-/// The same at points.
-Forces forces_at(const Frame& frame, const LevelSet& phi, const Scene& scene, vtkPoints& points) {
+/// The membrane as the solver samples it.
+struct Membrane {
+  NarrowBand band;
+  SurfaceGeometry surface;
+  std::optional<LevelSet> lap_KM; ///< around it, where its derivatives are needed
+
+  Membrane(const LevelSet& phi, const Scene& scene)
+      : band(phi.grid(), band_half_width),
+        surface(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside()) {
+    const Derivatives wanted = derivatives_for(scene);
+    for (int pass = 0; pass < 2; ++pass) { // nearest points go by one Newton step at a time
+      band.update(phi);
+      surface.sample(phi, band);
+      surface.jets(phi, band, wanted);
+    }
+    if (wanted != Derivatives::sixth) return;
+    lap_KM = lap_KM_around(phi, band, surface);
+    surface.differentiate(*lap_KM);
+  }
+};
+
+/// The forces at points.
+Forces forces_at(const Frame& frame, const LevelSet& phi, const std::optional<Membrane>& membrane,
+                 const Scene& scene, vtkPoints& points) {
   const std::size_t count = points.GetNumberOfPoints();
   Forces f{std::vector<double>(count, 0), std::vector<double>(count, 0)};
   if (has_surface_energy_only(scene)) return f;
-  NarrowBand band(frame.grid, band_half_width);
-  const bool phases = scene.has_phases();
-  SurfaceGeometry surface(phases ? QuadratureKernel::symmetric() : QuadratureKernel::outside());
-  for (int pass = 0; pass < 2; ++pass) { // nearest points go by one Newton step at a time
-    band.update(phi);
-    surface.sample(phi, band);
-    surface.jets(phi, band, derivatives_for(scene));
-  }
+  const auto& [band, surface, lap_KM] = *membrane;
   const Forces samples = forces_on(frame, phi, band, surface, scene);
   std::vector<Eigen::Vector3d> places(count);
   for (std::size_t n = 0; n < count; ++n) points.GetPoint(vtkIdType(n), places[n].data());
   Carrier carrier(frame.grid, band, surface);
   f.other = carrier.carry(samples.other, places);
-  if (phases) f.share_Ld = carrier.carry(samples.share_Ld, places);
+  if (scene.has_phases()) f.share_Ld = carrier.carry(samples.share_Ld, places);
   return f;
 }
 
@@ -138,11 +155,15 @@ Forces forces_at(const Frame& frame, const LevelSet& phi, const Scene& scene, vt
 /// curvatures, is that at the points themselves.
 std::vector<double> normal_velocity(const Frame& frame, const LevelSet& phi, const Scene& scene,
                                     const KnownMultipliers& m, vtkPoints& points) {
-  const auto [other, share_Ld] = forces_at(frame, phi, scene, points);
+  std::optional<Membrane> membrane;
+  if (!has_surface_energy_only(scene) || derivatives_for(scene) == Derivatives::sixth)
+    membrane.emplace(phi, scene);
+  const auto [other, share_Ld] = forces_at(frame, phi, membrane, scene, points);
   std::vector<Vec3> places(points.GetNumberOfPoints());
   for (std::size_t n = 0; n < places.size(); ++n) points.GetPoint(vtkIdType(n), places[n].data());
   SurfaceGeometry surface;
   surface.jets_at(phi, places, derivatives_for(scene));
+  if (membrane && membrane->lap_KM) surface.differentiate(*membrane->lap_KM);
   const std::vector<double> bulk = bulk_variation(scene, surface, share_Ld);
   std::vector<double> v(other.size());
   for (std::size_t i = 0; i < v.size(); ++i) {
