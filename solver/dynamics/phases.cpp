@@ -21,7 +21,8 @@ constexpr double linear_until = 5, level_from = 9;
 constexpr double follow_until = 4, follow_end = 6.6;
 constexpr double foot_reach = 8;
 
-constexpr double far_pull = 0.1; // towards the distance where it does not matter much, a step
+constexpr double far_pull = 0.1;   // towards the distance where it does not matter much, a step
+constexpr double fading_time = 10; // in which what a vanished boundary left fades; h^4 / kappa
 // How often what the pull moves the boundary by is taken off again: each time leaves a sixteenth.
 constexpr int returns = 3;
 constexpr double inconsistent = 1.5; // distance from psi: the foot is not that of this boundary
@@ -92,7 +93,8 @@ void Phases::follow(const LevelSet& phi, const NarrowBand& band) {
 /// Pulls psi towards the signed distance from the boundary; the boundary itself keeps its place, as
 /// the value of the change at each node's foot is taken off again. Far from the boundary what
 /// counts is the phase of the membrane there: off it, psi may be that of another place beyond a
-/// side of the box.
+/// side of the box. Where a boundary has vanished moduli are still in between; how they
+/// change does work, as any motion does, and so takes time.
 void Phases::restore_distance(const NarrowBand& band) {
   const Grid& grid = band.grid();
   const double top = saturated(1e9);
@@ -109,7 +111,8 @@ void Phases::restore_distance(const NarrowBand& band) {
       } else {
         const ConstPoints p = band.points();
         const double there = psi_.nodal()[grid.nearest({p.x[i], p.y[i], p.z[i]})];
-        c = far_pull * (std::copysign(top, there) - psi);
+        const double strip = boundary_taper(psi);
+        c = (strip * fade_ + (1 - strip) * far_pull) * (std::copysign(top, there) - psi);
       }
       c *= band.taper()[i];
     }
@@ -148,6 +151,7 @@ void Phases::restore_distance(const NarrowBand& band) {
   parallel_for(c.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) c[i] += d[i];
   });
+  fade_ = 0;
 }
 
 void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
@@ -447,6 +451,8 @@ void Phases::extend_rates(const NarrowBand& band, double dt, Extension& extensio
     }
   });
   extension.fill(band, rates_, weights_);
+  const double stiffest = std::max(ld_.bending_modulus, lo_.bending_modulus);
+  fade_ = std::min(far_pull, dt * stiffest / (fading_time * h_ * h_ * h_ * h_));
 }
 
 } // namespace lamella

@@ -81,6 +81,10 @@ public:
 
   /// Rates of psi at which the boundary moves in a step, carried into the box.
   void extend_rates(const NarrowBand& band, double dt, Extension& extension);
+  /// By what share the next locate() lets strips fade that a boundary left where it vanished; found
+  /// by extend_rates(), as it takes time.
+  double fade() const { return fade_; }
+  void set_fade(double fade) { fade_ = fade; }
 
   /// As of the last locate().
   const std::vector<Domain>& domains() const { return domains_; }
@@ -146,6 +150,7 @@ private:
   StepProfiles profiles_;
   HeldAreas held_;
   SmoothFit fit_;
+  double fade_ = 0;
   LevelSet psi_;
   PhaseBoundary boundary_;
   BoundaryFeet feet_; // of the band's entries

@@ -118,6 +118,7 @@ Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& f
     set_phases(scene, state.psi, fourier);
     std::ranges::copy(state.psi, phases_->psi().coefficients().begin());
     phases_->held().restore(state.held);
+    phases_->set_fade(state.fade);
   }
   if (scene.stretch.modulus > 0) {
     stretch_.emplace(scene.stretch.modulus, scene.grid(), state.c, fourier);
@@ -165,6 +166,7 @@ void Vesicle::note_origin() {
   const std::span<const double> psi = phases_->psi().coefficients();
   origin_.psi.assign(psi.begin(), psi.end());
   origin_.held = phases_->held().parts();
+  origin_.fade = phases_->fade();
 }
 
 /// A sphere cannot lose volume at a given area, and nothing in its curvature says where to: the

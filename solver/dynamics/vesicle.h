@@ -34,6 +34,7 @@ public:
     Array<double> phi, psi, c;         ///< coefficients; psi and c empty where the scene has none
     double lipid = 0;                  ///< int c dA at the start
     std::vector<HeldAreas::Part> held; ///< where the scene has phases
+    double fade = 0;                   ///< Phases::fade()
     NarrowBand::State band;
     Constraints::State constraints;
     std::vector<int> vesicle_of_node; ///< -1 outside; empty where there is one vesicle

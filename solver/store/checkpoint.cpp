@@ -188,6 +188,7 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"membrane/psi", &v.psi},
               {"membrane/c", &v.c},
               {"membrane/lipid", number(v.lipid)},
+              {"membrane/fade", number(v.fade)},
               {"band/node", &v.band.node},
               {"band/x", &v.band.x},
               {"band/y", &v.band.y},
