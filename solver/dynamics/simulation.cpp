@@ -154,6 +154,9 @@ void Simulation::take_back(const Failure& failure, double dt) {
   failed_before_ = failures_ == 0 ? failure.until : std::max(failed_before_, failure.until);
   if (++failures_ >= most_failures || dt < shortest) throw RunError(failure.why);
   go_back();
+  next_search_ = next_parting_ = steps_; // a neck that is about to part may be what failed
+  change_topology_if_needed();
+  if (!why_not_on_.empty()) throw RunError(why_not_on_);
 }
 
 /// Carries rates at the samples into the box.
