@@ -9,9 +9,6 @@
 namespace lamella {
 
 namespace {
-constexpr double blend = 1;           // z0: modes with z above it are mostly Euler
-constexpr double least_history = 0.3; // of SBDF2, for stiff modes too: cuts their lag
-constexpr double fade = 30; // z1: the stiffest, where stability is marginal, lose that too
 // Of the part of sixth order. At a tip the layers of the band have other wave numbers than the
 // membrane, which the sixth power makes much of: with a safety of 1 a prolate of reduced volume .8
 // never came to rest. Waves shorter than three spacings are resisted much less than by k^6, and

@@ -25,6 +25,12 @@ struct ImplicitSymbol {
 /// A step is made of predict(), respond() and apply(), in this order.
 class SemiImplicit {
 public:
+  static constexpr double blend = 1; ///< modes with z above it are mostly Euler
+  /// Of SBDF2, for stiff modes too: cuts their lag.
+  static constexpr double least_history = 0.3;
+  /// The stiffest modes, z above it, where stability is marginal, lose that too.
+  static constexpr double fade = 30;
+
   struct Response {
     Array<std::complex<double>> modes; ///< of the coefficients
     Array<double> nodal;               ///< coefficients at the nodes
