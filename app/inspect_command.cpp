@@ -38,8 +38,8 @@ std::string grid_text(const Grid& grid) {
 
 std::string fields_text(const Frame& frame) {
   std::string text = "phi (the membrane)";
-  if (!frame.psi.empty()) text += ", psi (phases)";
-  if (!frame.c.empty()) text += ", c (lipid per area)";
+  for (const auto& [name, values] : frame.fields)
+    text += ", " + name + (name == "psi" ? " (phases)" : name == "c" ? " (lipid per area)" : "");
   return text;
 }
 

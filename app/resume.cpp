@@ -63,8 +63,7 @@ SimulationState branched(SimulationState state, std::span<const Key* const> chan
   if (std::ranges::all_of(changed, [&](const Key* key) { return is_in(*key, harmless); }))
     return state;
   forget(state.stepper);
-  if (state.psi_stepper) forget(*state.psi_stepper);
-  if (state.c_stepper) forget(*state.c_stepper);
+  for (auto& [name, memory] : state.field_steppers) forget(memory);
   std::ranges::fill(state.excess, 0.0);
   state.error = state.last_dt = state.response_dt = 0;
   state.failures = 0;

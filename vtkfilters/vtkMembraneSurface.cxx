@@ -144,7 +144,7 @@ void AddNormals(vtkPolyData& mesh, const SplineGeometry& geometry)
 vtkSmartPointer<vtkPolyData> ExactSurface(
   const Frame& frame, int refinement, vtkDataObject& about, const lamella::SurfaceModuli& otherwise)
 {
-  const auto multipliers = lamella::multipliers_of(about, !frame.psi.empty());
+  const auto multipliers = lamella::multipliers_of(about, frame.has("psi"));
   const LevelSet phi = lamella::fitted(frame.grid, frame.phi);
   const Frame fine = Refined(frame, refinement ? refinement : SuitableRefinement(frame, phi));
   const auto mesh = lamella::contour(fine);

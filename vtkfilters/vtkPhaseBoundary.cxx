@@ -27,7 +27,7 @@ constexpr double BandHalfWidth = 2;
 lamella::PhaseBoundary Trace(const lamella::Frame& frame)
 {
   const lamella::LevelSet phi = lamella::fitted(frame.grid, frame.phi);
-  const lamella::LevelSet psi = lamella::fitted(frame.grid, frame.psi);
+  const lamella::LevelSet psi = lamella::fitted(frame.grid, frame.field("psi"));
   lamella::NarrowBand band(frame.grid, BandHalfWidth);
   band.update(phi);
   lamella::PhaseBoundary boundary;
@@ -123,7 +123,7 @@ int vtkPhaseBoundary::RequestData(
       const auto vesicle =
         lamella::vesicle_in(*vtkImageData::GetData(input[0]), { this->PhiArray });
       lamella::remark(this, vesicle.remark);
-      if (vesicle.frame.psi.empty())
+      if (!vesicle.frame.has("psi"))
       {
         throw lamella::InputError("the image has no point data array \"psi\": the membrane has "
                                   "one phase, which has no boundary");

@@ -42,7 +42,7 @@ public:
     , PhiArray(phiArray)
     , Center(vesicle.center)
     , Trajectory(Begin(
-        lamella::with_start(scene, vesicle.frame.grid, !vesicle.frame.psi.empty()), vesicle.frame))
+        lamella::with_start(scene, vesicle.frame.grid, vesicle.frame.has("psi")), vesicle.frame))
   {
   }
 

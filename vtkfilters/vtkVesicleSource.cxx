@@ -93,7 +93,9 @@ int vtkVesicleSource::RequestData(
       lamella::validate(scene);
       lamella::Start start = lamella::start_of(*this->Scene);
       lamella::fill_image(*vtkImageData::GetData(output),
-        { .grid = this->Scene->grid(), .phi = std::move(start.phi), .psi = std::move(start.psi) });
+        { .grid = this->Scene->grid(),
+          .phi = std::move(start.phi),
+          .fields = std::move(start.fields) });
     });
 }
 

@@ -79,7 +79,7 @@ Surface extract(vtkImageData& image, const Frame& frame, bool with_curvatures) {
   Surface surface{frame.time, drawn_output_of(*membrane, image), {}, nullptr};
   add_occlusion(*surface.mesh, frame, 0.12 * size);
   surface.parts = patches(*surface.mesh);
-  if (!frame.psi.empty()) surface.boundary = drawn_output_of(*vtkNew<vtkPhaseBoundary>(), image);
+  if (frame.has("psi")) surface.boundary = drawn_output_of(*vtkNew<vtkPhaseBoundary>(), image);
   return surface;
 }
 

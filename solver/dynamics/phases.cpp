@@ -1,5 +1,6 @@
 #include "dynamics/phases.h"
 
+#include "energy/scalar_jet.h"
 #include "levelset/gauge.h"
 #include "parallel.h"
 
@@ -11,7 +12,6 @@ namespace lamella {
 
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Lengths in grid spacings.
@@ -29,12 +29,6 @@ constexpr double inconsistent = 1.5; // distance from psi: the foot is not that 
 
 Vector3d vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-Matrix3d curvature_tensor(const SurfaceGeometry& surface, std::size_t i) {
-  const double xx = surface.B(0)[i], yy = surface.B(1)[i], zz = surface.B(2)[i],
-               xy = surface.B(3)[i], xz = surface.B(4)[i], yz = surface.B(5)[i];
-  return (Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
-}
-
 } // namespace
 
 PhaseIntegrals& PhaseIntegrals::operator+=(const PhaseIntegrals& o) {
@@ -49,12 +43,11 @@ Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier
       curvature_start_time_(scene.curvature_start_time), parameters_(scene.parameters),
       line_(scene.line), line_forces_(scene.line, scene.parameters, h_),
       profiles_(StepProfiles::of_grid(h_)),
-      held_(scene.stretch.modulus > 0, scene.area.of == Of::each, h_), fit_(scene.grid(), fourier),
-      psi_(scene.grid()) {
+      held_(scene.stretch.modulus > 0, scene.area.of == Of::each, h_),
+      field_("psi", scene.grid(), fourier) {
   std::vector<double> nodal(psi.size());
   for (std::size_t i = 0; i < psi.size(); i++) nodal[i] = saturated(psi[i]);
-  std::ranges::copy(nodal, psi_.coefficients().begin());
-  psi_.fit(nodal, fourier, 60);
+  field_.fit(nodal, 60);
 }
 
 SurfaceEnergy Phases::surface_energy(double time) const {
@@ -76,17 +69,17 @@ double Phases::boundary_taper(double s) const {
 }
 
 void Phases::locate(const LevelSet& phi, const NarrowBand& band, const Components& vesicles) {
-  psi_.update_nodal();
-  boundary_.trace(phi, psi_, band);
+  psi().update_nodal();
+  boundary_.trace(phi, psi(), band);
   feet_.find(boundary_, phi, band, foot_reach * h_);
-  DomainMap map = domains_of(band, psi_.nodal());
+  DomainMap map = domains_of(band, psi().nodal());
   held_.find(band, map, boundary_, vesicles);
   domains_ = std::move(map.domains);
   restore_distance(band);
 }
 
 void Phases::follow(const LevelSet& phi, const NarrowBand& band) {
-  psi_.update_nodal();
+  psi().update_nodal();
   feet_.find(boundary_, phi, band, foot_reach * h_);
 }
 
@@ -101,18 +94,18 @@ void Phases::restore_distance(const NarrowBand& band) {
   std::vector<double> change(band.size(), 0);
   parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) {
-      const double psi = psi_.nodal()[band.node()[i]];
+      const double here = psi().nodal()[band.node()[i]];
       const BoundaryFeet::Foot& foot = feet_[i];
       double& c = change[i];
       if (foot.exists()) {
-        const double off = saturated(foot.distance) - psi, near = boundary_taper(foot.distance);
-        if (std::abs(psi) < follow_until * h_ && std::abs(off) > inconsistent * h_) continue;
+        const double off = saturated(foot.distance) - here, near = boundary_taper(foot.distance);
+        if (std::abs(here) < follow_until * h_ && std::abs(off) > inconsistent * h_) continue;
         c = (near + far_pull * (1 - near)) * off;
       } else {
         const ConstPoints p = band.points();
-        const double there = psi_.nodal()[grid.nearest({p.x[i], p.y[i], p.z[i]})];
-        const double strip = boundary_taper(psi);
-        c = (strip * fade_ + (1 - strip) * far_pull) * (std::copysign(top, there) - psi);
+        const double there = psi().nodal()[grid.nearest({p.x[i], p.y[i], p.z[i]})];
+        const double strip = boundary_taper(here);
+        c = (strip * fade_ + (1 - strip) * far_pull) * (std::copysign(top, there) - here);
       }
       c *= band.taper()[i];
     }
@@ -128,11 +121,11 @@ void Phases::restore_distance(const NarrowBand& band) {
     const std::size_t plane = std::size_t(grid.nx()) * grid.ny();
     std::copy_n(in, plane, correction.coefficients().begin() + k * plane);
   };
-  fit_.apply(source, sink);
+  field_.corrections().apply(source, sink);
   parallel_for(band.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++)
       correction.coefficients()[band.node()[i]] +=
-          band.taper()[i] * noise_damping(grid, psi_.coefficients(), band.node()[i]);
+          band.taper()[i] * noise_damping(grid, psi().coefficients(), band.node()[i]);
   });
   std::vector<Vector3d> places;
   for (const BoundaryPoint& p : boundary_.points()) places.push_back(p.x);
@@ -147,7 +140,7 @@ void Phases::restore_distance(const NarrowBand& band) {
               band.taper()[i] * boundary_taper(feet_[i].distance) * feet_[i].value(at_boundary);
     });
   }
-  const std::span<double> c = psi_.coefficients();
+  const std::span<double> c = psi().coefficients();
   parallel_for(c.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i++) c[i] += d[i];
   });
@@ -162,13 +155,13 @@ void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
   delta_.assign(n, 0);
   strip_.clear();
   std::vector<double> second(n - own);
-  SplineView nodal = psi_.view();
-  nodal.coefficients = psi_.nodal().data();
+  SplineView nodal = psi().view();
+  nodal.coefficients = psi().nodal().data();
   const ConstPoints p = surface.points();
   kernels().cubic(nodal, n - own, {p.x + own, p.y + own, p.z + own}, second.data());
   std::vector<Vector3d> points;
   for (std::size_t i = 0; i < n; i++) {
-    const double about = i < own ? psi_.nodal()[band.node()[surface.entry()[i]]] : second[i - own];
+    const double about = i < own ? psi().nodal()[band.node()[surface.entry()[i]]] : second[i - own];
     share_[i] = about < 0;
     if (std::abs(about) > reach + 0.5 * h_) continue;
     StripPoint s;
@@ -181,18 +174,15 @@ void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
   for (const StripPoint& s : strip_)
     if (s.foot.exists()) boundary_point[s.sample] = s.foot.at;
   held_.sample(band.grid(), surface, boundary_point, vesicles);
-  const std::vector<Taylor> psi = taylor(psi_, points);
+  const std::vector<Taylor> near = taylor(psi(), points);
   parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; m++) {
       StripPoint& s = strip_[m];
-      const Vector3d N = vec(surface.normal(s.sample));
-      s.psi = psi[m].value;
-      s.hessian = psi[m].hessian;
-      s.along_N = psi[m].gradient.dot(N);
-      s.gradient = psi[m].gradient - s.along_N * N;
-      s.slope2 = s.gradient.squaredNorm();
-      s.lap = s.hessian.trace() - N.dot(s.hessian * N) + surface.KM()[s.sample] * s.along_N;
-      const SmearedStep::Value v = profiles_.accurate.at(s.psi);
+      s.psi = near[m];
+      const SurfaceJet<double> jet = jet_along(s.psi, surface, std::size_t(s.sample));
+      s.slope2 = dot(jet.grad, jet.grad);
+      s.lap = jet.lap;
+      const SmearedStep::Value v = profiles_.accurate.at(jet.f);
       share_[s.sample] = 1 - v.step;
       delta_[s.sample] = v.delta * std::sqrt(s.slope2);
     }
@@ -208,25 +198,13 @@ void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, Su
   jets_.psi.resize(strip_.size());
   for (const StripPoint& s : strip_) jets_.sample.push_back(s.sample);
   parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t m = begin; m < end; m++) jets_.psi[m] = jet_of(strip_[m], surface);
+    for (std::size_t m = begin; m < end; m++)
+      jets_.psi[m] = jet_along(strip_[m].psi, surface, std::size_t(strip_[m].sample));
   });
   jets_.further.clear();
   if (energy.gradient_differs()) find_further(surface);
   energy.find_forces(surface, is_Ld_, jets_, variation);
   add_line_forces(surface, variation);
-}
-
-/// psi along the membrane.
-SurfaceJet<double> Phases::jet_of(const StripPoint& s, const SurfaceGeometry& surface) const {
-  const std::size_t i = s.sample;
-  const Vector3d N = vec(surface.normal(i)), g = s.gradient;
-  const Matrix3d P = Matrix3d::Identity() - N * N.transpose(), B = curvature_tensor(surface, i);
-  const Vector3d Bg = B * g;
-  return {s.psi,
-          {g[0], g[1], g[2]},
-          {Bg[0], Bg[1], Bg[2]},
-          s.lap,
-          (B * (P * s.hessian * P + s.along_N * B)).trace()};
 }
 
 /// psi along the membrane, where third derivatives of it count: with T those in space,
@@ -235,21 +213,23 @@ SurfaceJet<double> Phases::jet_of(const StripPoint& s, const SurfaceGeometry& su
 void Phases::find_further(const SurfaceGeometry& surface) {
   std::vector<Vector3d> points;
   for (const StripPoint& s : strip_) points.push_back(vec(surface.point(s.sample)));
-  const std::vector<ThirdDerivatives> third = third_derivatives(psi_, points);
+  const std::vector<ThirdDerivatives> third = third_derivatives(psi(), points);
   jets_.further.resize(strip_.size());
   parallel_for(strip_.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; m++) {
       const StripPoint& s = strip_[m];
       const std::size_t i = s.sample;
-      const Vector3d N = vec(surface.normal(i)), HN = s.hessian * N,
+      const Eigen::Matrix3d& H = s.psi.hessian;
+      const Vector3d N = vec(surface.normal(i)), HN = H * N,
                      grad_KM(surface.grad_KM(0)[i], surface.grad_KM(1)[i], surface.grad_KM(2)[i]);
-      const Matrix3d P = Matrix3d::Identity() - N * N.transpose(), B = curvature_tensor(surface, i),
-                     hess = P * s.hessian * P + s.along_N * B;
+      const double along_N = s.psi.gradient.dot(N);
+      const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - N * N.transpose(),
+                            B = curvature_tensor(surface, i), hess = P * H * P + along_N * B;
       const double KM = surface.KM()[i];
       Vector3d inner = KM * HN;
       for (int d = 0; d < 3; d++) inner[d] += third[m].by[d].trace() - N.dot(third[m].by[d] * N);
       const Vector3d grad_lap =
-          P * inner + 2 * B * HN + s.along_N * grad_KM - KM * (B * s.gradient);
+          P * inner + 2 * B * HN + along_N * grad_KM - KM * (B * (s.psi.gradient - along_N * N));
       jets_.further[m] = {{hess(0, 0), hess(1, 1), hess(2, 2), hess(0, 1), hess(0, 2), hess(1, 2)},
                           {grad_lap[0], grad_lap[1], grad_lap[2]}};
     }
@@ -275,7 +255,7 @@ void Phases::spread_line_forces(const SurfaceGeometry& surface, std::span<double
   std::vector<int> samples;
   for (const StripPoint& s : strip_) {
     if (!s.foot.exists()) continue;
-    places.push_back({s.foot, s.psi, s.slope2, s.lap, surface.weight()[s.sample]});
+    places.push_back({s.foot, s.psi.value, s.slope2, s.lap, surface.weight()[s.sample]});
     samples.push_back(s.sample);
   }
   const std::vector<double> F = line_forces_.variation(boundary_, places);
@@ -318,7 +298,7 @@ void Phases::find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energ
   const std::vector<Taylor> near = taylor(phi, points);
   for (std::size_t i = 0; i < points.size(); i++)
     points[i] -= near[i].value / near[i].gradient.squaredNorm() * near[i].gradient;
-  const std::vector<Taylor> f = taylor(phi, points), psi = taylor(psi_, points);
+  const std::vector<Taylor> f = taylor(phi, points), to_boundary = taylor(psi(), points);
   std::vector<double> slope2(points.size(), 0);
   if (energy.gradient_differs()) {
     std::vector<Vec3> places;
@@ -329,8 +309,8 @@ void Phases::find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energ
     double slope = 0; // of the force as the boundary moves
     for (int q = 0; q < rule; q++) {
       const std::size_t i = rule * j + q;
-      const CurveGeometry c = curve_geometry(f[i], psi[i]);
-      const Univariate density = energy.across(psi[i].value, c.KM(), c.K(), slope2[i]);
+      const CurveGeometry c = curve_geometry(f[i], to_boundary[i]);
+      const Univariate density = energy.across(to_boundary[i].value, c.KM(), c.K(), slope2[i]);
       if (!std::isfinite(density.d1)) continue;
       const double s = node[q] * reach, width = weight[q] * reach * (1 - curve[j].kg * s);
       force_[j] += width * density.d1;
@@ -379,7 +359,7 @@ Eigen::VectorXd Phases::change_of_area(std::span<const double> psi, const Surfac
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(vesicles.count());
   for (const StripPoint& s : strip_)
     sum[vesicles.of_sample(std::size_t(s.sample))] -=
-        surface.weight()[s.sample] * profiles_.accurate.at(s.psi).delta * psi[s.sample];
+        surface.weight()[s.sample] * profiles_.accurate.at(s.psi.value).delta * psi[s.sample];
   return sum;
 }
 
@@ -427,7 +407,7 @@ double Phases::least_radius() const {
 }
 
 double Phases::near_boundary(int node) const {
-  const double u = psi_.nodal()[node] / saturated(1e9);
+  const double u = psi().nodal()[node] / saturated(1e9);
   return 0.5 * (1 + std::cos(std::numbers::pi * std::clamp(u, -1.0, 1.0)));
 }
 

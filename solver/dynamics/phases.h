@@ -1,4 +1,5 @@
 #pragma once
+#include "dynamics/evolving_field.h"
 #include "dynamics/held_areas.h"
 #include "dynamics/line_forces.h"
 #include "dynamics/measures.h"
@@ -9,7 +10,7 @@
 #include "levelset/domains.h"
 #include "levelset/extension.h"
 #include "levelset/level_set.h"
-#include "levelset/smooth_fit.h"
+#include "levelset/taylor.h"
 #include "scene/scene.h"
 
 #include <Eigen/Core>
@@ -93,8 +94,10 @@ public:
   /// 1 at nodes on the boundary, falling smoothly to 0 several spacings from it.
   double near_boundary(int node) const;
 
-  LevelSet& psi() { return psi_; }
-  const LevelSet& psi() const { return psi_; }
+  EvolvingField& evolving() { return field_; }
+  const EvolvingField& evolving() const { return field_; }
+  LevelSet& psi() { return field_.spline(); }
+  const LevelSet& psi() const { return field_.spline(); }
   const PhaseBoundary& boundary() const { return boundary_; }
   const BoundaryFeet& feet() const { return feet_; }
   /// On the boundary along n, per length, without the jump of tension.
@@ -121,16 +124,12 @@ private:
   /// A sample in the strip along the boundary.
   struct StripPoint {
     int sample = 0;
-    double psi = 0;
-    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-    double along_N = 0;                                 ///< N.grad psi
-    Eigen::Vector3d gradient = Eigen::Vector3d::Zero(); ///< along the membrane
-    double slope2 = 0;                                  ///< its square
-    double lap = 0;                                     ///< Lap_s psi
+    Taylor psi{};
+    double slope2 = 0; ///< |grad_s psi|^2
+    double lap = 0;    ///< Lap_s psi
     BoundaryFeet::Foot foot;
   };
 
-  SurfaceJet<double> jet_of(const StripPoint& point, const SurfaceGeometry& surface) const;
   void find_further(const SurfaceGeometry& surface);
   void add_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const;
   void restore_distance(const NarrowBand& band);
@@ -149,9 +148,8 @@ private:
   LineForces line_forces_;
   StepProfiles profiles_;
   HeldAreas held_;
-  SmoothFit fit_;
   double fade_ = 0;
-  LevelSet psi_;
+  EvolvingField field_;
   PhaseBoundary boundary_;
   BoundaryFeet feet_; // of the band's entries
   std::vector<Domain> domains_;

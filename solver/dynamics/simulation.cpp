@@ -38,8 +38,8 @@ const Start& checked(const Start& start, const Scene& scene) {
       throw RunError(fmt::format("{} of the start is not finite everywhere", name));
   };
   check("phi", start.phi);
-  if (scene.has_phases()) check("psi", start.psi);
-  if (!start.c.empty()) check("c", start.c);
+  if (scene.has_phases() && !start.fields.contains("psi")) check("psi", {});
+  for (const auto& [name, values] : start.fields) check(name.c_str(), values);
   return start;
 }
 } // namespace
@@ -59,8 +59,6 @@ Simulation::Simulation(const Scene& scene, const Start& start, const SurfaceTerm
     : contact_(scene.contact), control_(control_of(scene)), fourier_(scene.grid()),
       vesicle_(scene, checked(start, scene), fourier_, more), gauge_(scene.grid()),
       stepper_(scene.grid(), fourier_, responses_of(scene)), cells_(start.cells) {
-  if (scene.has_phases()) psi_stepper_.emplace(scene.grid(), fourier_, 0);
-  if (vesicle_.stretch()) c_stepper_.emplace(scene.grid(), fourier_, 0);
   if (vesicle_.drift(0) > hopeless_drift) throw RunError(why_not_kept());
   note(vesicle_.measures(0));
   topology_ = {measures_.components, measures_.genus};
@@ -71,14 +69,11 @@ Simulation::Simulation(const Scene& scene, const Start& start, const SurfaceTerm
 }
 
 Frame Simulation::frame() const {
-  auto nodal = [&](const LevelSet& field, const SemiImplicit& stepper) {
-    std::vector<double> values(grid().size());
-    nodal_values(grid(), broken_ ? stepper.before() : field.coefficients(), values);
-    return values;
-  };
-  Frame frame{grid(), time(), nodal(vesicle_.phi(), stepper_), cells_};
-  if (psi_stepper_) frame.psi = nodal(vesicle_.phases()->psi(), *psi_stepper_);
-  if (c_stepper_) frame.c = nodal(vesicle_.stretch()->c(), *c_stepper_);
+  std::vector<double> phi(grid().size());
+  nodal_values(grid(), broken_ ? stepper_.before() : vesicle_.phi().coefficients(), phi);
+  Frame frame{grid(), time(), std::move(phi), cells_};
+  for (const EvolvingField* field : vesicle_.fields())
+    frame.fields[field->name()] = field->nodal(broken_);
   return frame;
 }
 
@@ -118,8 +113,8 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
     }
     response_dt_ = dt;
   }
-  if (psi_stepper_) predict_boundary(dt);
-  if (c_stepper_) step_stretch(dt);
+  if (vesicle_.phases()) predict_boundary(dt);
+  if (vesicle_.stretch()) step_stretch(dt);
   holdings_ = vesicle_.holdings();
   apply_constrained(then);
   error_ = std::max(step_error(), boundary_error());
@@ -179,9 +174,10 @@ void Simulation::step_stretch(double dt) {
   StretchField& stretch = *vesicle_.stretch();
   const SurfaceGeometry& surface = vesicle_.surface();
   extend([&](std::size_t i) { return stretch.rate(i, surface.KM()[i], vesicle_.velocity(i)); });
-  c_stepper_->predict(vesicle_.extension(), dt, {0, stretch.law().diffusivity()});
-  c_stepper_->apply(stretch.c(), {}, 0);
-  stretch.extend(vesicle_.band(), surface, vesicle_.extension());
+  EvolvingField& c = stretch.c().evolving();
+  c.stepper().predict(vesicle_.extension(), dt, {0, stretch.law().diffusivity()});
+  c.stepper().apply(c.spline(), {}, 0);
+  stretch.c().extend(vesicle_.band(), surface, vesicle_.extension());
 }
 
 /// Adds to the step's increment what leads the constraints to their targets to first order: the
@@ -203,8 +199,8 @@ void Simulation::apply_constrained(double time) {
   };
   Quantities predicted = change_by(moved);
   if (phases)
-    predicted.row(3) +=
-        phases->change_of_area(on_membrane(psi_stepper_->increment()), surface, vesicles);
+    predicted.row(3) += phases->change_of_area(
+        on_membrane(phases->evolving().stepper().increment()), surface, vesicles);
   Eigen::MatrixXd effect = Eigen::MatrixXd::Zero(4 * n, 4 * n);
   auto set_effect = [&](int direction, const Quantities& changes) {
     for (Eigen::Index k = 0; k < n; k++)
@@ -228,7 +224,9 @@ void Simulation::apply_constrained(double time) {
   if (n > 1) return apply_to_each(factors);
   const double along[2] = {factors(1), second ? factors(second) : 0};
   stepper_.apply(vesicle_.phi(), along, factors(0));
-  if (phases) psi_stepper_->apply(phases->psi(), {}, response_dt_ * factors(3) / phases->drag());
+  if (phases)
+    phases->evolving().stepper().apply(phases->psi(), {},
+                                       response_dt_ * factors(3) / phases->drag());
 }
 
 /// The same factors would move the other vesicles: each has its own rates, which the step smooths
@@ -244,10 +242,10 @@ void Simulation::apply_to_each(const Eigen::Matrix4Xd& factors) {
     return f[0] / response_dt_ - v * surface.grad()[i];
   });
   stepper_.apply(vesicle_.phi(), vesicle_.extension(), response_dt_);
-  if (!psi_stepper_) return;
+  if (!vesicle_.phases()) return;
   Phases& phases = *vesicle_.phases();
   extend([&](std::size_t i) { return factors(3, vesicles.of_sample(i)) / phases.drag(); });
-  psi_stepper_->apply(phases.psi(), vesicle_.extension(), response_dt_);
+  phases.evolving().stepper().apply(phases.psi(), vesicle_.extension(), response_dt_);
 }
 
 /// A field of coefficients at the samples.
@@ -284,7 +282,7 @@ void Simulation::predict_boundary(double dt) {
   Phases& phases = *vesicle_.phases();
   phases.extend_rates(vesicle_.band(), dt, vesicle_.extension());
   const LineForces::Stiffness line = phases.line_forces().of_boundary();
-  psi_stepper_->predict(
+  phases.evolving().stepper().predict(
       vesicle_.extension(), dt,
       {line.stiffness / phases.drag(), (phases.line().tension + line.tension) / phases.drag()});
 }
@@ -293,18 +291,14 @@ void Simulation::predict_boundary(double dt) {
 double Simulation::restart() {
   excess_.setZero(4, 1);
   stepper_.restart();
-  if (psi_stepper_) psi_stepper_->restart();
-  if (c_stepper_) c_stepper_->restart();
+  for (EvolvingField* field : vesicle_.fields()) field->restart();
   return vesicle_.measure_anew(time());
 }
 
 /// To the state before the step that failed, for a shorter one without history.
 void Simulation::go_back() {
   std::ranges::copy(stepper_.before(), vesicle_.phi().coefficients().begin());
-  if (psi_stepper_)
-    std::ranges::copy(psi_stepper_->before(), vesicle_.phases()->psi().coefficients().begin());
-  if (c_stepper_)
-    std::ranges::copy(c_stepper_->before(), vesicle_.stretch()->c().coefficients().begin());
+  for (EvolvingField* field : vesicle_.fields()) field->go_back();
   vesicle_.restore(holdings_);
   broken_ = false;
   restart();
@@ -365,18 +359,18 @@ double Simulation::step_error() const {
 
 /// The same of psi over the nodes next to the phase boundary.
 double Simulation::boundary_error() const {
-  if (!psi_stepper_) return 0;
+  if (!vesicle_.phases()) return 0;
   const BoundaryFeet& feet = vesicle_.phases()->feet();
   const NarrowBand& band = vesicle_.band();
-  const double ratio = psi_stepper_->step_ratio(), h = grid().spacing;
+  const SemiImplicit& stepper = *vesicle_.phases()->evolving().stepper_if_made();
+  const double ratio = stepper.step_ratio(), h = grid().spacing;
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t s = 0; s < band.size(); s++) {
     if (std::abs(band.distance()[s]) > h || !feet[s].exists() || std::abs(feet[s].distance) > 2 * h)
       continue;
     const int node = band.node()[s];
-    const double e =
-        psi_stepper_->increment()[node] - ratio * psi_stepper_->previous_increment()[node];
+    const double e = stepper.increment()[node] - ratio * stepper.previous_increment()[node];
     sum += e * e;
     count++;
   }

@@ -9,7 +9,9 @@
 #include "scene/scene.h"
 #include "store/frame.h"
 
+#include <map>
 #include <optional>
+#include <string>
 
 namespace lamella {
 
@@ -19,7 +21,7 @@ struct SimulationState {
   std::vector<Event> events;
   Vesicle::State vesicle;
   SemiImplicit::Memory stepper;
-  std::optional<SemiImplicit::Memory> psi_stepper, c_stepper;
+  std::map<std::string, SemiImplicit::Memory> field_steppers; ///< of those that have one
   Array<double> excess; ///< of each vesicle, four numbers each
   double error = 0, last_dt = 0, response_dt = 0;
   long steps = 0, renormalised = 0, next_parting = 0, next_search = 0, failures = 0;
@@ -138,8 +140,6 @@ private:
   Vesicle vesicle_;
   Gauge gauge_;
   SemiImplicit stepper_;
-  std::optional<SemiImplicit> psi_stepper_;     // with phases
-  std::optional<SemiImplicit> c_stepper_;       // with a stretch modulus
   std::vector<double> work_;                    // a number a band entry
   std::vector<CriticalPoint> inside_, outside_; // near the membrane
   std::string why_not_on_;                      // the next step cannot be made

@@ -317,8 +317,6 @@ void Simulation::recentre_if_needed() {
 void Simulation::move_box(const std::array<int, 3>& cells) {
   vesicle_.shift(cells);
   stepper_.shift(cells);
-  if (psi_stepper_) psi_stepper_->shift(cells);
-  if (c_stepper_) c_stepper_->shift(cells);
   for (int d = 0; d < 3; d++) cells_[d] += cells[d];
   vesicle_.measure_anew(time());
 }

@@ -59,14 +59,14 @@ void check_vesicles(const Vesicle::State& s, const Grid& grid) {
 
 void check_fits(const SimulationState& s, const Scene& scene) {
   const Grid grid = scene.grid();
-  const bool phases = scene.has_phases(), stretch = scene.stretch.modulus > 0;
   check_size("phi", s.vesicle.phi.size(), grid.size());
-  check_size("psi", s.vesicle.psi.size(), phases ? grid.size() : 0);
-  check_size("c", s.vesicle.c.size(), stretch ? grid.size() : 0);
-  if (phases != s.psi_stepper.has_value() || phases != s.measures.phases.has_value())
-    refuse("the number of phases");
-  if (stretch != s.c_stepper.has_value() || stretch != s.measures.stretch.has_value())
-    refuse("the stretch modulus");
+  for (const std::string& name : scene.evolving_fields()) {
+    if (!s.vesicle.fields.contains(name)) refuse(name + " is missing");
+    check_size(name, s.vesicle.fields.at(name).coefficients.size(), grid.size());
+  }
+  check_size("the list of fields", s.vesicle.fields.size(), scene.evolving_fields().size());
+  if (scene.has_phases() != s.measures.phases.has_value()) refuse("the number of phases");
+  if ((scene.stretch.modulus > 0) != s.measures.stretch.has_value()) refuse("the stretch modulus");
   if (s.steps < 1) refuse("it has made no step");
   check_vesicles(s.vesicle, grid);
   if (s.excess.empty() || s.excess.size() % 4 != 0) refuse("the number of vesicles");
@@ -78,12 +78,9 @@ const SimulationState& fitting(const SimulationState& s, const Scene& scene) {
   return s;
 }
 
-void restore(std::optional<SemiImplicit>& stepper, const std::optional<SemiImplicit::Memory>& from,
-             const Grid& grid, Fourier& fourier) {
-  if (!from) return;
-  stepper.emplace(grid, fourier, 0);
-  check_fits(*from, stepper->memory());
-  stepper->remember(*from);
+void restore(SemiImplicit& stepper, const SemiImplicit::Memory& from) {
+  check_fits(from, stepper.memory());
+  stepper.remember(from);
 }
 
 } // namespace
@@ -101,10 +98,10 @@ Simulation::Simulation(const Scene& scene, const SimulationState& s, const Surfa
   if (!std::ranges::equal(std::views::keys(vesicle_.energies().others()),
                           std::views::keys(measures_.terms.others())))
     refuse("the terms of the energy that are not built in");
-  check_fits(s.stepper, stepper_.memory());
-  stepper_.remember(s.stepper);
-  restore(psi_stepper_, s.psi_stepper, scene.grid(), fourier_);
-  restore(c_stepper_, s.c_stepper, scene.grid(), fourier_);
+  restore(stepper_, s.stepper);
+  for (EvolvingField* field : vesicle_.fields())
+    if (const auto from = s.field_steppers.find(field->name()); from != s.field_steppers.end())
+      restore(field->stepper(), from->second);
 }
 
 SimulationState Simulation::state() const {
@@ -112,8 +109,7 @@ SimulationState Simulation::state() const {
                     .events = events_,
                     .vesicle = vesicle_.state(),
                     .stepper = stepper_.memory(),
-                    .psi_stepper = {},
-                    .c_stepper = {},
+                    .field_steppers = {},
                     .excess = {excess_.data(), excess_.data() + excess_.size()},
                     .error = error_,
                     .last_dt = last_dt_,
@@ -131,8 +127,9 @@ SimulationState Simulation::state() const {
                     .inside = inside_,
                     .outside = outside_,
                     .why_not_on = why_not_on_};
-  if (psi_stepper_) s.psi_stepper = psi_stepper_->memory();
-  if (c_stepper_) s.c_stepper = c_stepper_->memory();
+  for (const EvolvingField* field : vesicle_.fields())
+    if (const SemiImplicit* stepper = field->stepper_if_made())
+      s.field_steppers[field->name()] = stepper->memory();
   for (auto* places : {&s.inside, &s.outside})
     for (CriticalPoint& place : *places) place.around.clear();
   return s;

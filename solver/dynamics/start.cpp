@@ -28,14 +28,15 @@ std::vector<double> stored_psi(const Scene& scene, const Frame& membrane) {
   const std::string& own_file = scene.domains.file;
   Frame frame = own_file.empty() ? membrane : read_frame(own_file);
   check_grid(frame, scene.grid());
-  if (frame.psi.empty())
+  if (!frame.has("psi"))
     throw RunError(fmt::format("the frame {} has one phase; domains.kind must be \"none\", or "
                                "domains.file a frame with two phases",
                                own_file.empty() ? scene.shape.file : own_file));
   std::array<int, 3> cells = membrane.cells;
   for (int i = 0; i < 3; ++i) cells[i] -= frame.cells[i];
-  shift(frame.grid, cells, frame.psi);
-  return std::move(frame.psi);
+  std::vector<double> psi = std::move(frame.fields.at("psi"));
+  shift(frame.grid, cells, psi);
+  return psi;
 }
 
 } // namespace
@@ -43,8 +44,9 @@ std::vector<double> stored_psi(const Scene& scene, const Frame& membrane) {
 Start start_of(const Scene& scene, Frame frame) {
   check_grid(frame, scene.grid());
   Start start{.cells = frame.cells};
-  if (scene.has_phases()) start.psi = stored_psi(scene, frame);
-  if (scene.stretch.modulus > 0) start.c = std::move(frame.c);
+  if (scene.has_phases()) start.fields["psi"] = stored_psi(scene, frame);
+  if (scene.stretch.modulus > 0 && frame.has("c"))
+    start.fields["c"] = std::move(frame.fields.at("c"));
   start.phi = std::move(frame.phi);
   return start;
 }
@@ -53,7 +55,7 @@ Start start_of(const Scene& scene) {
   if (scene.shape.kind == ShapeKind::frame) return start_of(scene, read_frame(scene.shape.file));
   const std::vector<BulgedCap> bulges = bulged_caps(scene);
   Start start{.phi = initial_phi(scene.shape, scene.grid(), scene.perturbation, bulges)};
-  if (scene.has_phases()) start.psi = initial_psi(scene);
+  if (scene.has_phases()) start.fields["psi"] = initial_psi(scene);
   if (bulges.empty())
     start.exact = {exact_area(scene.shape), exact_volume(scene.shape), exact_area_ld(scene)};
   return start;

@@ -14,9 +14,10 @@ struct Start {
     double area, volume;
     double area_ld = 0; ///< of the domains; without them 0
   };
-  std::vector<double> phi{};    ///< the membrane, negative inside
-  std::vector<double> psi{};    ///< with phases: about the signed distance from their boundary
-  std::vector<double> c{};      ///< local stretch, of a stored frame that has it; empty: 1
+  std::vector<double> phi{}; ///< the membrane, negative inside
+  /// psi with phases, about the signed distance from their boundary; c of local stretch where a
+  /// stored frame has it, else 1.
+  NodalFields fields{};
   std::optional<Exact> exact{}; ///< of the shape itself, where it is known
   std::array<int, 3> cells{};   ///< by which the box of a stored frame had moved
 };

@@ -68,9 +68,12 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier, const
     : Vesicle(scene, fourier, more) {
   std::ranges::copy(start.phi, phi_.coefficients().begin());
   phi_.fit(start.phi, fourier);
-  if (scene.has_phases()) set_phases(scene, start.psi, fourier);
-  if (scene.stretch.modulus > 0)
-    stretch_.emplace(scene.stretch.modulus, scene.grid(), start.c, fourier);
+  if (scene.has_phases()) set_phases(scene, start.fields.at("psi"), fourier);
+  if (scene.stretch.modulus > 0) {
+    stretch_.emplace(scene.stretch.modulus, scene.grid(), fourier);
+    if (const auto c = start.fields.find("c"); c != start.fields.end())
+      stretch_->c().evolving().fit(c->second, 8);
+  }
   locate();
   components_.settle();
   surface_.curvatures(phi_, band_);
@@ -103,10 +106,10 @@ Vesicle::State Vesicle::state() const {
   state.constraints = constraints_.state();
   state.constraints.share = origin_.constraints.share;
   state.constraints.group = origin_.constraints.group;
-  if (!stretch_) return state;
-  const std::span<const double> c = stretch_->c().coefficients();
-  state.c.assign(c.begin(), c.end());
-  state.lipid = stretch_->lipid();
+  if (stretch_) {
+    const std::span<const double> c = stretch_->c().spline().coefficients();
+    state.fields["c"] = {{c.begin(), c.end()}, stretch_->c().amount()};
+  }
   return state;
 }
 
@@ -115,14 +118,16 @@ Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& f
     : Vesicle(scene, fourier, more) {
   std::ranges::copy(state.phi, phi_.coefficients().begin());
   if (scene.has_phases()) {
-    set_phases(scene, state.psi, fourier);
-    std::ranges::copy(state.psi, phases_->psi().coefficients().begin());
+    const Array<double>& psi = state.fields.at("psi").coefficients;
+    set_phases(scene, psi, fourier);
+    phases_->evolving().restore(psi);
     phases_->held().restore(state.held);
     phases_->set_fade(state.fade);
   }
   if (scene.stretch.modulus > 0) {
-    stretch_.emplace(scene.stretch.modulus, scene.grid(), state.c, fourier);
-    stretch_->restore(state.c, state.lipid);
+    const State::Field& c = state.fields.at("c");
+    stretch_.emplace(scene.stretch.modulus, scene.grid(), fourier);
+    stretch_->c().restore(c.coefficients, c.amount);
   }
   band_.restore(state.band);
   restore({state.vesicle_of_node, state.constraints});
@@ -137,8 +142,7 @@ void Vesicle::restore(const Holdings& holdings) {
 
 void Vesicle::shift(const std::array<int, 3>& cells) {
   lamella::shift(grid(), cells, phi_.coefficients());
-  if (phases_) lamella::shift(grid(), cells, phases_->psi().coefficients());
-  if (stretch_) lamella::shift(grid(), cells, stretch_->c().coefficients());
+  for (EvolvingField* field : fields()) field->shift(cells);
   components_.shift(cells);
 }
 
@@ -164,7 +168,7 @@ void Vesicle::note_origin() {
   origin_.constraints = constraints_.state();
   if (!phases_) return;
   const std::span<const double> psi = phases_->psi().coefficients();
-  origin_.psi.assign(psi.begin(), psi.end());
+  origin_.fields["psi"].coefficients.assign(psi.begin(), psi.end());
   origin_.held = phases_->held().parts();
   origin_.fade = phases_->fade();
 }
@@ -410,7 +414,7 @@ void Vesicle::measure_forces(double time) {
     energy_.find_forces(surface_, {}, {}, variation_);
   stiffness_ = energy_.stiffness(surface_, phases_ ? phases_->is_Ld() : std::span<const char>());
   if (stretch_) {
-    stretch_->sample(surface_);
+    stretch_->c().sample(surface_);
     stretch_->add_variation(surface_, variation_);
     if (phases_) phases_->add_flow(*stretch_);
   }
@@ -635,6 +639,18 @@ std::vector<ComponentMeasures> Vesicle::component_measures(double time) const {
     }
   }
   return all;
+}
+
+std::vector<EvolvingField*> Vesicle::fields() {
+  std::vector<EvolvingField*> all;
+  if (phases_) all.push_back(&phases_->evolving());
+  if (stretch_) all.push_back(&stretch_->c().evolving());
+  return all;
+}
+
+std::vector<const EvolvingField*> Vesicle::fields() const {
+  const std::vector<EvolvingField*> all = const_cast<Vesicle*>(this)->fields();
+  return {all.begin(), all.end()};
 }
 
 std::vector<double> Vesicle::grad_of_entries() const {

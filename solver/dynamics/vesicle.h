@@ -14,6 +14,7 @@
 #include "levelset/level_set.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,10 +32,14 @@ public:
   /// All that the membrane is found from: what the last measurement began with. (What it found is
   /// many times as much, and comes out the same when it is made again.)
   struct State {
-    Array<double> phi, psi, c;         ///< coefficients; psi and c empty where the scene has none
-    double lipid = 0;                  ///< int c dA at the start
-    std::vector<HeldAreas::Part> held; ///< where the scene has phases
-    double fade = 0;                   ///< Phases::fade()
+    Array<double> phi; ///< coefficients
+    struct Field {
+      Array<double> coefficients;
+      double amount = 0; ///< CarriedField::amount
+    };
+    std::map<std::string, Field> fields; ///< by the names of evolving fields
+    std::vector<HeldAreas::Part> held;   ///< where the scene has phases
+    double fade = 0;                     ///< Phases::fade()
     NarrowBand::State band;
     Constraints::State constraints;
     std::vector<int> vesicle_of_node; ///< -1 outside; empty where there is one vesicle
@@ -129,6 +134,9 @@ public:
   /// Where the scene has a stretch modulus.
   StretchField* stretch() { return stretch_ ? &*stretch_ : nullptr; }
   const StretchField* stretch() const { return stretch_ ? &*stretch_ : nullptr; }
+  /// All that evolve on the membrane, those that the scene has.
+  std::vector<EvolvingField*> fields();
+  std::vector<const EvolvingField*> fields() const;
   /// Function m of 1, K_M, K, q K_M at a sample.
   double direction(int m, std::size_t sample) const;
   /// int g_i u dA over each vesicle for a displacement u of the samples, g = (1, K_M, K, q K_M).

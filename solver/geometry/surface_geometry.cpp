@@ -50,7 +50,8 @@ void SurfaceGeometry::resize(std::size_t samples) {
 }
 
 void SurfaceGeometry::curvatures(const LevelSet& phi, NarrowBand& band) {
-  evaluate(phi, band, kernels().curvatures, Derivatives::laplacian);
+  derivatives_ = Derivatives::none;
+  evaluate(phi, band, kernels().curvatures, derivatives_);
 }
 
 void SurfaceGeometry::jets(const LevelSet& phi, NarrowBand& band, Derivatives wanted) {

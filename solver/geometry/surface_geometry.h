@@ -12,6 +12,7 @@ namespace lamella {
 
 /// How much is known of the curvatures along the membrane.
 enum class Derivatives {
+  none,      ///< K_M and K alone
   laplacian, ///< Lap_s K_M
   gradient,  ///< also grad_s K_M and the curvature tensor B
   all,       ///< also B : grad_s grad_s K_M, and the same of K
@@ -41,7 +42,7 @@ public:
   /// Derivatives of Lap_s K_M, from a field that continues it (LaplacianField); those of sixth
   /// order wanted.
   void differentiate(const LevelSet& lap_KM);
-  /// What the last jets() found.
+  /// What the last curvatures() or jets() found.
   Derivatives derivatives() const { return derivatives_; }
 
   /// Moves sample i along its normal; the others stay.
@@ -95,7 +96,7 @@ private:
   std::vector<char> sampled_;
   SecondSheets second_;
   Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, sharpest_, weight_;
-  Derivatives derivatives_ = Derivatives::laplacian;
+  Derivatives derivatives_ = Derivatives::none;
   std::array<Array<double>, 3> grad_KM_, grad_K_, grad_lap_KM_;
   std::array<Array<double>, 6> B_, hess_KM_;
   Array<double> B_hess_KM_, lap_K_, B_hess_K_, lap_lap_KM_;

@@ -7,6 +7,13 @@ namespace lamella {
 
 Grid Scene::grid() const { return {nodes, 2 * half_width / *std::ranges::min_element(nodes)}; }
 
+std::vector<std::string> Scene::evolving_fields() const {
+  std::vector<std::string> names;
+  if (has_phases()) names.emplace_back("psi");
+  if (stretch.modulus > 0) names.emplace_back("c");
+  return names;
+}
+
 double Scene::stiffest() const {
   return has_phases() ? std::max(ld.bending_modulus, lo.bending_modulus) : membrane.bending_modulus;
 }

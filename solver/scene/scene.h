@@ -108,6 +108,10 @@ struct Stretch {
   bool operator==(const Stretch&) const = default;
 };
 
+/// How a field changes as the membrane that it is on moves: each point keeps its value, or its
+/// amount per area falls where the membrane grows.
+enum class Carried { value, amount };
+
 /// fixed: as it is at the start. ramped: led to given values. free: under a given multiplier.
 enum class Constraint { fixed, ramped, free };
 
@@ -217,6 +221,8 @@ struct Scene {
 
   Grid grid() const;
   bool has_phases() const { return domains.kind != DomainsKind::none; }
+  /// The fields on the membrane that evolve with it: psi with phases, c where it resists stretch.
+  std::vector<std::string> evolving_fields() const;
   /// The largest bending modulus.
   double stiffest() const;
   /// When the run ends: end_time or, where that is 0, 1.6e-3 half_width^4 / stiffest().

@@ -16,8 +16,9 @@
 namespace lamella {
 namespace {
 
-constexpr int format = 3;
+constexpr int format = 4;
 constexpr const char* group_name = "checkpoint"; // in "lamella", which every frame has
+constexpr const char *fields_group = "fields", *steppers_group = "field_steps";
 constexpr std::size_t most_responses = 2;
 
 /// Records as numbers, row after row.
@@ -185,9 +186,6 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"places/inside", &tables.inside},
               {"places/outside", &tables.outside},
               {"membrane/phi", &v.phi},
-              {"membrane/psi", &v.psi},
-              {"membrane/c", &v.c},
-              {"membrane/lipid", number(v.lipid)},
               {"membrane/fade", number(v.fade)},
               {"band/node", &v.band.node},
               {"band/x", &v.band.x},
@@ -215,8 +213,13 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"topology/genus", number(s.topology.genus)},
               {"why_not_on", &s.why_not_on}};
   add(items, "phi_steps", s.stepper);
-  if (s.psi_stepper) add(items, "psi_steps", *s.psi_stepper);
-  if (s.c_stepper) add(items, "c_steps", *s.c_stepper);
+  for (auto& [name, field] : v.fields) {
+    const std::string at = std::string(fields_group) + "/" + name;
+    items.push_back({at + "/coefficients", &field.coefficients});
+    items.push_back({at + "/amount", number(field.amount)});
+  }
+  for (auto& [name, memory] : s.field_steppers)
+    add(items, std::string(steppers_group) + "/" + name, memory);
   return items;
 }
 
@@ -381,6 +384,11 @@ private:
   std::string name_;
 };
 
+std::vector<std::string> names_in(const H5Image& image, hid_t group, const char* name) {
+  if (!image.has(group, name)) return {};
+  return image.names(image.group(group, name));
+}
+
 void expect_responses(const H5Image& image, hid_t group, SemiImplicit::Memory& memory) {
   const H5Handle steps = image.group(group, "phi_steps");
   while (memory.responses.size() < most_responses &&
@@ -399,14 +407,15 @@ void write_checkpoint(const Place& place, const Frame& frame, Checkpoint checkpo
   check_frame(place.path(), frame);
   Tables tables = tables_of(checkpoint.state);
   const Items items = items_of(checkpoint, tables);
-  write_h5(place, size_of(items) + 3 * frame.phi.size() * sizeof(double), [&](hid_t root) {
-    put_frame(root, frame);
-    const H5Handle lamella = owned(H5Gopen2(root, "lamella", H5P_DEFAULT));
-    const H5Handle group = create_group(lamella, group_name);
-    write_attribute(group, "format", std::array{format});
-    ItemWriter writer(group);
-    for (const Item& item : items) writer.write(item);
-  });
+  write_h5(place, size_of(items) + (1 + frame.fields.size()) * frame.phi.size() * sizeof(double),
+           [&](hid_t root) {
+             put_frame(root, frame);
+             const H5Handle lamella = owned(H5Gopen2(root, "lamella", H5P_DEFAULT));
+             const H5Handle group = create_group(lamella, group_name);
+             write_attribute(group, "format", std::array{format});
+             ItemWriter writer(group);
+             for (const Item& item : items) writer.write(item);
+           });
 }
 
 bool is_checkpoint(const std::filesystem::path& file) {
@@ -427,8 +436,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   Checkpoint checkpoint;
   SimulationState& state = checkpoint.state;
   expect_responses(image, group, state.stepper);
-  if (image.has(group, "psi_steps")) state.psi_stepper.emplace();
-  if (image.has(group, "c_steps")) state.c_stepper.emplace();
+  for (const std::string& name : names_in(image, group, fields_group)) state.vesicle.fields[name];
+  for (const std::string& name : names_in(image, group, steppers_group)) state.field_steppers[name];
   Tables tables;
   ItemReader reader(image, group);
   for (const Item& item : items_of(checkpoint, tables)) reader.read(item);

@@ -20,16 +20,7 @@ constexpr int most_nodes_along_axis = 1024;
 constexpr std::size_t most_nodes = std::size_t(1) << 28;
 constexpr int most_cells = 1'000'000;
 
-/// Values at the nodes, and the name of their data array.
-struct NodalField {
-  const char* name;
-  std::vector<double> Frame::*values;
-};
-/// The first one is in every frame.
-constexpr std::array<NodalField, 3> fields{
-    {{"phi", &Frame::phi}, {"psi", &Frame::psi}, {"c", &Frame::c}}};
-
-bool is_optional(const NodalField& field) { return &field != &fields.front(); }
+constexpr const char* membrane = "phi"; ///< the data array that is in every frame
 
 /// Without an early end, so that it vectorises: what is checked is finite.
 bool all_finite(std::span<const double> values) {
@@ -51,14 +42,18 @@ void write_field(hid_t group, const char* name, const Grid& grid,
 
 /// Where there are several fields, says which of them readers show first.
 void write_fields(hid_t points, const Frame& frame) {
-  for (const NodalField& field : fields)
-    if (const std::vector<double>& values = frame.*field.values; !values.empty())
-      write_field(points, field.name, frame.grid, values);
-  if (!frame.psi.empty() || !frame.c.empty())
-    write_attribute(points, "Scalars", fields.front().name);
+  write_field(points, membrane, frame.grid, frame.phi);
+  for (const auto& [name, values] : frame.fields)
+    write_field(points, name.c_str(), frame.grid, values);
+  if (!frame.fields.empty()) write_attribute(points, "Scalars", membrane);
 }
 
 } // namespace
+
+std::span<const double> Frame::field(std::string_view name) const {
+  const auto found = fields.find(name);
+  return found == fields.end() ? std::span<const double>() : found->second;
+}
 
 void check_frame(const std::filesystem::path& file, const Frame& frame) {
   const auto refuse = [&](std::string_view why) {
@@ -71,13 +66,14 @@ void check_frame(const std::filesystem::path& file, const Frame& frame) {
                        frame.grid.ny(), frame.grid.nz()));
   if (!(frame.grid.spacing > 0) || !std::isfinite(frame.grid.spacing))
     refuse(fmt::format("the grid spacing is {}", frame.grid.spacing));
-  for (const NodalField& field : fields) {
-    const std::vector<double>& values = frame.*field.values;
-    if (values.size() != frame.grid.size() && !(values.empty() && is_optional(field)))
-      refuse(fmt::format("{} has {} values, the grid {} nodes", field.name, values.size(),
+  const auto check = [&](std::string_view name, std::span<const double> values) {
+    if (values.size() != frame.grid.size())
+      refuse(fmt::format("{} has {} values, the grid {} nodes", name, values.size(),
                          frame.grid.size()));
-    if (!all_finite(values)) refuse(fmt::format("{} has values that are not finite", field.name));
-  }
+    if (!all_finite(values)) refuse(fmt::format("{} has values that are not finite", name));
+  };
+  check(membrane, frame.phi);
+  for (const auto& [name, values] : frame.fields) check(name, values);
   if (std::ranges::any_of(frame.cells, [](int n) { return std::abs(n) > most_cells; }))
     refuse(fmt::format("the box has moved by ({}) cells", fmt::join(frame.cells, ", ")));
   if (!std::isfinite(frame.time)) refuse(fmt::format("the time is {}", frame.time));
@@ -107,7 +103,7 @@ void write_frame(const std::filesystem::path& file, const Frame& frame) {
 
 void write_frame(const Place& place, const Frame& frame) {
   check_frame(place.path(), frame);
-  const std::size_t size = (frame.phi.size() + frame.psi.size() + frame.c.size()) * sizeof(double);
+  const std::size_t size = (1 + frame.fields.size()) * frame.phi.size() * sizeof(double);
   write_h5(place, size, [&](hid_t root) { put_frame(root, frame); });
 }
 
@@ -127,9 +123,9 @@ public:
     frame.time = image_.attribute<double, 1>(lamella, "time")[0];
     if (!std::isfinite(frame.time)) image_.refuse("it has values that are not finite");
     const H5Handle points = image_.group(vtk, "PointData");
-    for (const NodalField& field : fields)
-      if (!is_optional(field) || image_.has(points, field.name))
-        frame.*field.values = read_field(points, field.name, frame.grid);
+    frame.phi = read_field(points, membrane, frame.grid);
+    for (const std::string& name : image_.names(points))
+      if (name != membrane) frame.fields[name] = read_field(points, name.c_str(), frame.grid);
     return frame;
   }
 

@@ -179,6 +179,22 @@ H5Handle H5Image::group(hid_t parent, const char* name) const {
   return required(H5Gopen2(parent, name, H5P_DEFAULT), fmt::format("no group {}", name));
 }
 
+std::vector<std::string> H5Image::names(hid_t group) const {
+  H5G_info_t info{};
+  if (H5Gget_info(group, &info) < 0) refuse("a group is damaged");
+  std::vector<std::string> all;
+  for (hsize_t i = 0; i < info.nlinks; i++) {
+    const auto name = [&](char* text, std::size_t size) {
+      return H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, text, size, H5P_DEFAULT);
+    };
+    const ssize_t length = name(nullptr, 0);
+    if (length < 0 || std::size_t(length) > longest_text) refuse("a name is damaged");
+    std::string& text = all.emplace_back(std::size_t(length), ' ');
+    if (name(text.data(), text.size() + 1) < 0) refuse("a name is damaged");
+  }
+  return all;
+}
+
 std::string H5Image::text_attribute(hid_t object, const char* name) const {
   const std::string trouble = fmt::format("attribute {} is missing or no text", name);
   const H5Handle attribute = required(H5Aopen(object, name, H5P_DEFAULT), trouble);

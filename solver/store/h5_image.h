@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 // HDF5 files that are composed and taken apart in memory, so that errors of the disk come in the
 // system's words and never reach HDF5. A checksum follows what HDF5 regards as the file: readers of
@@ -63,6 +64,8 @@ public:
   H5Handle required(hid_t id, std::string_view why) const;
   bool has(hid_t parent, const char* name) const;
   H5Handle group(hid_t parent, const char* name) const;
+  /// Of all that is in a group.
+  std::vector<std::string> names(hid_t group) const;
   template <class T, std::size_t n>
   std::array<T, n> attribute(hid_t object, const char* name) const {
     static_assert(std::is_same_v<T, double> || std::is_same_v<T, int>);

@@ -41,7 +41,7 @@ Frame pear() {
     return std::hypot(p[0], p[1]) / (1 - 0.5 * p[2]) + 0.6 * p[2] * p[2] - 0.32;
   });
   for (std::size_t n = 0; n < frame.grid.size(); ++n)
-    frame.psi.push_back(0.15 - frame.grid.position(n)[2]);
+    frame.fields["psi"].push_back(0.15 - frame.grid.position(n)[2]);
   return frame;
 }
 

@@ -62,8 +62,9 @@ protected:
                           other = read_checkpoint(checkpoints_of(b).back()).state;
     EXPECT_EQ(end.vesicle.phi, other.vesicle.phi);
     EXPECT_EQ(end.stepper.increment, other.stepper.increment);
-    EXPECT_EQ(end.vesicle.psi, other.vesicle.psi);
-    EXPECT_EQ(end.vesicle.c, other.vesicle.c);
+    ASSERT_EQ(end.vesicle.fields.size(), other.vesicle.fields.size());
+    for (const auto& [name, field] : end.vesicle.fields)
+      EXPECT_EQ(field.coefficients, other.vesicle.fields.at(name).coefficients) << name;
   }
 
   std::set<std::string> temporary_files_of(const fs::path& run) const {

@@ -139,7 +139,7 @@ TEST(Outcome, CountsBudsAndNotFlatDomains) {
         state_of([](const Vec3& p) { return std::hypot(p[0], p[1], p[2]) - 0.6; });
     for (std::size_t n = 0; n < state.frame.grid.size(); ++n) {
       const auto [x, y, z] = state.frame.grid.position(n);
-      state.frame.psi.push_back(0.6 * (std::atan2(std::hypot(x, y), z) - angle));
+      state.frame.fields["psi"].push_back(0.6 * (std::atan2(std::hypot(x, y), z) - angle));
     }
     return state;
   };

@@ -54,7 +54,7 @@ Frame capped_sphere(double radius, double cap_angle) {
   for (std::size_t n = 0; n < frame.grid.size(); ++n) {
     const auto [x, y, z] = frame.grid.position(n);
     const double distance = radius * (std::atan2(std::hypot(x, y), z) - cap_angle);
-    frame.psi.push_back(0.3 * std::tanh(distance / 0.3));
+    frame.fields["psi"].push_back(0.3 * std::tanh(distance / 0.3));
   }
   return frame;
 }
@@ -200,7 +200,7 @@ TEST_F(Render, cuts_phases_apart_exactly_also_through_nodes) {
   const double plane = // through nodes of the lattice that is four times as fine
       frame.grid.position(frame.grid.index(0, 0, 26))[2] + frame.grid.spacing / 8;
   for (std::size_t n = 0; n < frame.grid.size(); ++n)
-    frame.psi.push_back(frame.grid.position(n)[2] - plane);
+    frame.fields["psi"].push_back(frame.grid.position(n)[2] - plane);
   const std::vector<Patch> both = patches(*extract_surface(frame).mesh);
   ASSERT_EQ(both.size(), 2u);
   EXPECT_EQ(both[0].part, Part::Ld);
@@ -215,7 +215,7 @@ TEST_F(Render, cuts_phases_apart_exactly_also_through_nodes) {
 
 TEST_F(Render, draws_a_membrane_that_one_of_two_phases_has_left) {
   Frame frame = sphere(0.5);
-  frame.psi.assign(frame.grid.size(), 0.3);
+  frame.fields["psi"].assign(frame.grid.size(), 0.3);
   const Surface surface = extract_surface(frame);
   const Picture picture = view_of(surface, "auto");
   EXPECT_GT(std::ranges::count_if(picture.pixels, is_blue), 30000);

@@ -14,7 +14,7 @@ Frame dumbbell(bool phases) {
   for (std::size_t n = 0; n < frame.grid.size(); ++n) {
     const auto [x, y, z] = frame.grid.position(n);
     frame.phi.push_back(std::hypot(x, y) - 0.3 - 0.4 * z * z + 1.6 * std::pow(z, 6));
-    if (phases) frame.psi.push_back(z);
+    if (phases) frame.fields["psi"].push_back(z);
   }
   return frame;
 }

@@ -355,7 +355,7 @@ TEST(TwoVesicles, ThatAreSpheresStaySpheres) {
 /// Half of the first is Ld, a third of the second; where `pure`, all of the second.
 Start two_phases(const Grid& grid, bool pure) {
   Start start = two_ellipsoids(grid);
-  start.psi = at_nodes(grid, [=](const Vec3& x) {
+  start.fields["psi"] = at_nodes(grid, [=](const Vec3& x) {
     return x[2] > 0.05 ? x[0] : pure ? -0.5 : x[0] + 0.12;
   });
   return start;

@@ -222,13 +222,13 @@ TEST(Bulges, AreWhereThePhasesAre) {
   const double h = scene.grid().spacing;
   for (std::size_t n = 0; n < without.size(); ++n) {
     if (std::abs(without[n]) > h) continue;
-    ASSERT_NEAR(start.psi[n], psi[n], 0.1 * h); // images count by their level sets
+    ASSERT_NEAR(start.fields.at("psi")[n], psi[n], 0.1 * h); // images count by their level sets
     const double change = start.phi[n] - without[n];
     ASSERT_GT(change, -1e-14);
-    if (start.psi[n] > 3 * h) {
+    if (start.fields.at("psi")[n] > 3 * h) {
       ASSERT_LT(change, 1e-14);
     }
-    if (start.psi[n] < -3 * h) {
+    if (start.fields.at("psi")[n] < -3 * h) {
       ASSERT_GT(change, h);
     }
   }
@@ -245,7 +245,7 @@ PhaseBoundary boundary_of(const Scene& scene) {
   const Start start = start_of(scene);
   StartSurface surface(start.phi, scene.grid());
   const double width = 6 * scene.grid().spacing;
-  std::vector<double> nodal = start.psi;
+  std::vector<double> nodal = start.fields.at("psi");
   for (double& psi : nodal) psi = width * std::tanh(psi / width);
   LevelSet psi(scene.grid());
   std::ranges::copy(nodal, psi.coefficients().begin());
@@ -274,13 +274,13 @@ TEST(Starts, HaveWhatTheSceneHas) {
   Scene scene = with_cap(ball, 0.2);
   scene.nodes = {32, 32, 32};
   const Start two = start_of(scene);
-  EXPECT_EQ(two.psi, initial_psi(scene));
-  EXPECT_TRUE(two.c.empty());
+  EXPECT_EQ(two.fields.at("psi"), initial_psi(scene));
+  EXPECT_TRUE(!two.fields.contains("c"));
   EXPECT_NEAR(two.exact->area_ld, 0.2 * two.exact->area, 1e-14);
   scene.domains = {};
   const Start one = start_of(scene);
   EXPECT_EQ(one.phi, two.phi);
-  EXPECT_TRUE(one.psi.empty());
+  EXPECT_TRUE(!one.fields.contains("psi"));
   EXPECT_EQ(one.exact->area_ld, 0);
 }
 
@@ -294,12 +294,12 @@ protected:
     Frame frame{.grid = stored_.grid(),
                 .phi = start.phi,
                 .cells = {1, 0, 2},
-                .psi = start.psi,
-                .c = std::vector<double>(start.phi.size(), 1.01)};
+                .fields = {{"psi", start.fields.at("psi")},
+                           {"c", std::vector<double>(start.phi.size(), 1.01)}}};
     write_frame(two_phases_, frame);
     frame.cells = {1, 3, 2};
-    frame.psi.clear();
-    frame.c.clear();
+    frame.fields.erase("psi");
+    frame.fields.erase("c");
     write_frame(one_phase_, frame);
     scene_.nodes = stored_.nodes;
     scene_.shape.kind = ShapeKind::frame;
@@ -329,13 +329,13 @@ TEST_F(StartsFromFrames, TakeWhatTheSceneHas) {
   scene_.stretch.modulus = 1000;
   const Start start = start_of(scene_);
   EXPECT_EQ(start.phi, initial_phi(ball, stored_.grid()));
-  EXPECT_EQ(start.psi, initial_psi(stored_));
-  EXPECT_EQ(start.c.at(7), 1.01);
+  EXPECT_EQ(start.fields.at("psi"), initial_psi(stored_));
+  EXPECT_EQ(start.fields.at("c").at(7), 1.01);
   EXPECT_FALSE(start.exact);
   scene_.domains.kind = DomainsKind::none;
   scene_.stretch.modulus = 0;
-  EXPECT_TRUE(start_of(scene_).psi.empty());
-  EXPECT_TRUE(start_of(scene_).c.empty());
+  EXPECT_TRUE(!start_of(scene_).fields.contains("psi"));
+  EXPECT_TRUE(!start_of(scene_).fields.contains("c"));
 }
 
 TEST_F(StartsFromFrames, TakePhasesOfAnotherFrameToWhereTheyWere) {
@@ -344,7 +344,7 @@ TEST_F(StartsFromFrames, TakePhasesOfAnotherFrameToWhereTheyWere) {
   const Start start = start_of(scene_);
   const std::vector<double> there = initial_psi(stored_);
   const Grid grid = scene_.grid();
-  EXPECT_EQ(start.psi[grid.index(4, 5, 6)], there[grid.index(4, 8, 6)]);
+  EXPECT_EQ(start.fields.at("psi")[grid.index(4, 5, 6)], there[grid.index(4, 8, 6)]);
   EXPECT_EQ(start.cells, (std::array{1, 3, 2}));
 }
 

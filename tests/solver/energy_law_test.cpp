@@ -34,7 +34,7 @@ double of_lipid(const Vesicle& v) {
     const Vec3 p = v.surface().point(i);
     places.push_back({p[0], p[1], p[2]});
   }
-  const std::vector<Taylor> c = taylor(v.stretch()->c(), places);
+  const std::vector<Taylor> c = taylor(v.stretch()->c().spline(), places);
   double sum = 0;
   for (std::size_t i = 0; i < places.size(); i++) {
     const Vec3 n = v.surface().normal(i);

@@ -104,8 +104,8 @@ protected:
     Frame frame = sample();
     for (std::size_t n = 0; n < frame.grid.size(); ++n) {
       const auto [x, y, z] = frame.grid.position(n);
-      frame.psi.push_back(std::cos(5 * y) - x * z);
-      frame.c.push_back(1 + 0.01 * std::sin(9 * z + x));
+      frame.fields["psi"].push_back(std::cos(5 * y) - x * z);
+      frame.fields["c"].push_back(1 + 0.01 * std::sin(9 * z + x));
     }
     return frame;
   }
@@ -157,21 +157,21 @@ TEST_F(FrameStore, ReadsWhatItWroteToTheLastBit) {
     EXPECT_EQ(back.time, frame.time);
     EXPECT_EQ(back.cells, frame.cells);
     expect_same(back.phi, frame.phi);
-    expect_same(back.psi, frame.psi);
-    expect_same(back.c, frame.c);
+    ASSERT_EQ(back.fields.size(), frame.fields.size());
+    for (const auto& [name, values] : frame.fields) expect_same(back.fields.at(name), values);
     EXPECT_EQ(files(), 1u);
   }
 }
 
 TEST_F(FrameStore, StoresEachFieldByItself) {
   Frame frame = sample_with_phases();
-  frame.psi.clear();
+  frame.fields.erase("psi");
   write_frame(file(), frame);
-  EXPECT_TRUE(read_frame(file()).psi.empty());
-  expect_same(read_frame(file()).c, frame.c);
+  EXPECT_FALSE(read_frame(file()).has("psi"));
+  expect_same(read_frame(file()).fields.at("c"), frame.fields.at("c"));
   EXPECT_THAT(content_of(file()), HasSubstr("Scalars")) << "readers are told which comes first";
 
-  frame.c.clear();
+  frame.fields.erase("c");
   write_frame(file(), frame);
   write_frame(folder_ / "plain.hdf", sample());
   EXPECT_EQ(content_of(file()), content_of(folder_ / "plain.hdf")) << "no trace of fields";
@@ -224,11 +224,13 @@ TEST_F(FrameStore, RefusesFramesThatNoReaderWouldTake) {
               HasSubstr("phi has 1919 values, the grid 1920"));
   EXPECT_THAT(message([](Frame& f) { f.phi.clear(); }),
               HasSubstr("phi has 0 values, the grid 1920"));
-  EXPECT_THAT(message([](Frame& f) { f.psi.push_back(1); }), HasSubstr("psi has 1921 values"));
-  EXPECT_THAT(message([](Frame& f) { f.c.resize(5); }), HasSubstr("c has 5 values"));
-  EXPECT_THAT(message([](Frame& f) { f.psi[0] = infinity; }),
+  EXPECT_THAT(message([](Frame& f) { f.fields["psi"].push_back(1); }),
+              HasSubstr("psi has 1921 values"));
+  EXPECT_THAT(message([](Frame& f) { f.fields["c"].resize(5); }), HasSubstr("c has 5 values"));
+  EXPECT_THAT(message([](Frame& f) { f.fields["psi"][0] = infinity; }),
               HasSubstr("psi has values that are not finite"));
-  EXPECT_THAT(message([](Frame& f) { f.c[7] = nan; }), HasSubstr("c has values that are not"));
+  EXPECT_THAT(message([](Frame& f) { f.fields["c"][7] = nan; }),
+              HasSubstr("c has values that are not"));
   EXPECT_THAT(message([](Frame& f) { f.grid.spacing = 0; }), HasSubstr("spacing"));
   EXPECT_THAT(message([](Frame& f) { f.grid.nodes[1] = -12; }), HasSubstr("16 x -12 x 10 nodes"));
   EXPECT_THAT(message([](Frame& f) { f.cells[2] = -1000001; }),
@@ -362,7 +364,7 @@ TEST_F(FrameStore, RefusesForgedPhases) {
   bytes.replace(second, pattern(size).size(), pattern(other));
   bytes.resize(bytes.size() - checksum_line("").size());
   EXPECT_THAT(message_for(bytes + checksum_line(bytes)),
-              HasSubstr("PointData/psi does not agree with WholeExtent"));
+              HasSubstr("PointData/c does not agree with WholeExtent"));
 }
 
 class HistoryStore : public Store {

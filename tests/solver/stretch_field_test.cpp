@@ -25,13 +25,14 @@ struct State : StartSurface {
 
   State()
       : StartSurface(ellipsoid({0.6, 0.5, 0.42}), Grid::cube(48, 0.85)),
-        stretch(mu, grid, at_nodes(grid, lipid_at), fourier) {
+        stretch(mu, grid, fourier) {
+    stretch.c().evolving().fit(at_nodes(grid, lipid_at), 8);
     look();
   }
   void look() {
     measure();
     measure(); // nearest points go by one Newton step at a time
-    stretch.sample(geometry);
+    stretch.c().sample(geometry);
   }
   double energy() const { return stretch.energy(geometry); }
 };
@@ -68,7 +69,7 @@ TEST(Stretch, PullsOnTheMembraneAsItsEnergySays) {
   LevelSet change(s.grid);
   for (std::size_t i = 0; i < s.grid.size(); i++)
     change.coefficients()[i] = bump(s.grid.position(i));
-  const std::vector<Taylor> w = taylor(change, places), c = taylor(s.stretch.c(), places);
+  const std::vector<Taylor> w = taylor(change, places), c = taylor(s.stretch.c().spline(), places);
   std::vector<double> carried(s.band.size(), 0.);
   double work = 0;
   for (std::size_t i = 0; i < places.size(); i++) {
@@ -82,7 +83,7 @@ TEST(Stretch, PullsOnTheMembraneAsItsEnergySays) {
   const double exact = quotient([&](State& varied, double amount) {
     for (std::size_t i = 0; i < s.grid.size(); i++)
       varied.phi.coefficients()[i] += amount * change.coefficients()[i];
-    add(s, varied.stretch.c(), amount, carried);
+    add(s, varied.stretch.c().evolving().spline(), amount, carried);
   });
   EXPECT_GT(std::abs(exact), 0.01);
   EXPECT_NEAR(work, exact, 0.02 * std::abs(exact)); // measured 0.011
@@ -98,7 +99,7 @@ TEST(Stretch, LipidFlowsDownItsEnergy) {
     const Vec3 p = s.geometry.point(i);
     places.push_back({p[0], p[1], p[2]});
   }
-  const std::vector<Taylor> c = taylor(s.stretch.c(), places);
+  const std::vector<Taylor> c = taylor(s.stretch.c().spline(), places);
   for (std::size_t i = 0; i < s.geometry.size(); i++) {
     const Vec3 n = s.geometry.normal(i);
     const Vector3d N(n[0], n[1], n[2]), slope = c[i].gradient - c[i].gradient.dot(N) * N;
@@ -107,8 +108,9 @@ TEST(Stretch, LipidFlowsDownItsEnergy) {
     if (i < s.geometry.entry().size())
       rate[s.geometry.entry()[i]] = s.stretch.rate(i, s.geometry.KM()[i], 0);
   }
-  const double exact =
-      quotient([&](State& varied, double amount) { add(s, varied.stretch.c(), amount, rate); });
+  const double exact = quotient([&](State& varied, double amount) {
+    add(s, varied.stretch.c().evolving().spline(), amount, rate);
+  });
   EXPECT_GT(friction, 0.01);
   EXPECT_NEAR(-friction, exact, 0.04 * friction); // measured 0.019
 }

@@ -244,9 +244,9 @@ struct Sides {
 Sides sides(const Frame& frame) {
   StartSurface s(frame.phi, frame.grid);
   LevelSet psi(frame.grid), c(frame.grid);
-  psi.fit(frame.psi, s.fourier, 60);
+  psi.fit(frame.fields.at("psi"), s.fourier, 60);
   const std::vector<double> lipid =
-      frame.c.empty() ? std::vector<double>(frame.grid.size(), 1.0) : frame.c;
+      frame.has("c") ? frame.fields.at("c") : std::vector<double>(frame.grid.size(), 1.0);
   c.fit(lipid, s.fourier, 60);
   std::vector<Eigen::Vector3d> places;
   for (std::size_t i = 0; i < s.geometry.size(); i++) {

@@ -101,7 +101,7 @@ TEST(MembraneMeasures, TellPhasesApart) {
   const double r = 0.5, z0 = 0.2;
   Frame frame = frame_of(sphere(r), Grid::cube(64, 1));
   for (std::size_t n = 0; n < frame.phi.size(); ++n)
-    frame.psi.push_back(0.3 * std::tanh((z0 - frame.grid.position(n)[2]) / 0.3));
+    frame.fields["psi"].push_back(0.3 * std::tanh((z0 - frame.grid.position(n)[2]) / 0.3));
   const auto image = image_of(frame);
   set_field_value(*image, "lo.bending_modulus", 5);
   set_field_value(*image, "sigma", 17);

@@ -175,8 +175,8 @@ TEST(MembraneSurface, TakesBoxesOfAnyProportionsAndOtherNumbers) {
 TEST(MembraneSurface, TellsPhasesApart) {
   Frame frame = frame_of(sphere(0.5), Grid::cube(48, 1));
   for (std::size_t n = 0; n < frame.phi.size(); ++n) {
-    frame.psi.push_back(0.2 - frame.grid.position(n)[2]);
-    frame.c.push_back(1 + 0.1 * frame.grid.position(n)[0]);
+    frame.fields["psi"].push_back(0.2 - frame.grid.position(n)[2]);
+    frame.fields["c"].push_back(1 + 0.1 * frame.grid.position(n)[0]);
   }
   const auto image = image_of(frame);
   set_field_value(*image, "ld.bending_modulus", 3);
@@ -222,15 +222,12 @@ double error_of_velocity(const Scene& scene) {
   Start start = start_of(scene);
   if (scene.stretch.modulus > 0)
     for (std::size_t n = 0; n < scene.grid().size(); ++n)
-      start.c.push_back(1 + 0.05 * scene.grid().position(n)[0]);
+      start.fields["c"].push_back(1 + 0.05 * scene.grid().position(n)[0]);
   Vesicle vesicle(scene, start, fourier);
-  const auto nodal = [](LevelSet& field) {
-    field.update_nodal();
-    return std::vector<double>(field.nodal().begin(), field.nodal().end());
-  };
-  Frame frame{.grid = scene.grid(), .phi = nodal(vesicle.phi())};
-  if (vesicle.phases()) frame.psi = nodal(vesicle.phases()->psi());
-  if (vesicle.stretch()) frame.c = nodal(vesicle.stretch()->c());
+  Frame frame{.grid = scene.grid(), .phi = std::vector<double>(scene.grid().size())};
+  nodal_values(scene.grid(), vesicle.phi().coefficients(), frame.phi);
+  for (const EvolvingField* field : vesicle.fields())
+    frame.fields[field->name()] = field->nodal(false);
   vtkNew<vtkImageData> image;
   fill_state(*image, frame, vesicle.measures(0), scene);
   vtkNew<vtkPoints> points;

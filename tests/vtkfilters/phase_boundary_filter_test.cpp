@@ -23,7 +23,8 @@ const double pi = std::numbers::pi;
 template <class Psi>
 Frame two_phases(const Shape& shape, const Grid& grid, Psi&& psi) {
   Frame frame = frame_of(shape, grid);
-  for (std::size_t n = 0; n < grid.size(); ++n) frame.psi.push_back(psi(grid.position(n)));
+  for (std::size_t n = 0; n < grid.size(); ++n)
+    frame.fields["psi"].push_back(psi(grid.position(n)));
   return frame;
 }
 

@@ -70,7 +70,7 @@ TEST(VesicleSource, MakesDomains) {
   source->SetDomainsHalfAngle(25);
   EXPECT_EQ(source->GetNumberOfDomains(), 2);
   EXPECT_EQ(error_of(source), "");
-  EXPECT_EQ(values(source->GetOutput(), "psi"), start_of(scene).psi);
+  EXPECT_EQ(values(source->GetOutput(), "psi"), start_of(scene).fields.at("psi"));
 }
 
 TEST(VesicleSource, SaysWhatIsWrongWithParameters) {

@@ -65,7 +65,6 @@ void for_each_point(vtkPolyData& mesh, F&& f) {
 
 void add_field(vtkPolyData& mesh, const char* name, const Grid& grid,
                const std::vector<double>& nodal) {
-  if (nodal.empty()) return;
   const Sampler field(grid, nodal);
   vtkNew<vtkDoubleArray> values;
   values->SetName(name);
@@ -99,9 +98,8 @@ void add_normals(vtkPolyData& mesh, const Frame& frame) {
 }
 
 void add_fields(vtkPolyData& mesh, const Frame& frame) {
-  add_field(mesh, "psi", frame.grid, frame.psi);
-  add_field(mesh, "c", frame.grid, frame.c);
-  if (!frame.psi.empty()) mesh.GetPointData()->SetActiveScalars("psi");
+  for (const auto& [name, values] : frame.fields) add_field(mesh, name.c_str(), frame.grid, values);
+  if (frame.has("psi")) mesh.GetPointData()->SetActiveScalars("psi");
 }
 
 } // namespace lamella

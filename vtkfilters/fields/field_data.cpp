@@ -90,7 +90,7 @@ void set_forces(vtkDataObject& data, const Scene& scene) {
 }
 
 Scene forces_of(vtkDataObject& data, const Frame& frame, const SurfaceModuli& otherwise) {
-  Scene scene = with_start({}, frame.grid, !frame.psi.empty());
+  Scene scene = with_start({}, frame.grid, frame.has("psi"));
   scene.membrane = scene.ld = scene.lo = otherwise;
   for_each_parameter<double>(scene, [&](const std::string& path, double& value, bool) {
     value = field_value(data, path).value_or(value);

@@ -204,26 +204,23 @@ void check_nodes(const Lattice& lattice) {
 }
 
 /// The fields of an image on the grid of a lattice, which may begin before the image's own.
-class Fields {
-public:
-  Fields(vtkDataSetAttributes& data, const ImageLattice& image) : data_(data), image_(image) {}
-
-  std::vector<double> optional(const char* name, const Lattice& lattice,
-                               const std::array<int, 3>& before) const {
-    vtkDataArray* array = data_.GetArray(name);
-    if (!array) return {};
-    return resample(
-        widened(image_.in_order(values_of(*array)), image_.lattice().nodes, lattice.nodes, before),
-        lattice, Interpolation::smooth);
+NodalFields fields_in(vtkDataSetAttributes& data, const vtkDataArray& phi,
+                      const ImageLattice& image, const Mask& mask) {
+  NodalFields fields;
+  for (int i = 0; i < data.GetNumberOfArrays(); ++i) {
+    vtkDataArray* array = data.GetArray(i);
+    if (!array || array == &phi || !array->GetName() || array->GetNumberOfComponents() != 1 ||
+        (array->GetDataType() != VTK_DOUBLE && array->GetDataType() != VTK_FLOAT))
+      continue;
+    fields[array->GetName()] =
+        resample(widened(image.in_order(values_of(*array)), image.lattice().nodes,
+                         mask.lattice.nodes, mask.before),
+                 mask.lattice, Interpolation::smooth);
   }
-
-private:
-  vtkDataSetAttributes& data_;
-  const ImageLattice& image_;
-};
+  return fields;
+}
 
 void add_array(vtkImageData& image, const char* name, const std::vector<double>& values) {
-  if (values.empty()) return;
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
   array->SetNumberOfTuples(vtkIdType(values.size()));
@@ -236,7 +233,8 @@ void add_array(vtkImageData& image, const char* name, const std::vector<double>&
 ImageVesicle vesicle_in(vtkImageData& image, const Selection& selection) {
   vtkDataSetAttributes& data = data_with(image, selection.phi_array);
   const ImageLattice own(image, &data == image.GetCellData());
-  std::vector<double> values = own.in_order(values_of(find_phi(data, selection.phi_array)));
+  vtkDataArray& phi = find_phi(data, selection.phi_array);
+  std::vector<double> values = own.in_order(values_of(phi));
   ImageVesicle vesicle;
   const auto inside = inside_of_mask(values, selection, vesicle.remark);
   Mask mask{own.lattice(), {}};
@@ -251,11 +249,7 @@ ImageVesicle vesicle_in(vtkImageData& image, const Selection& selection) {
   }
   const Grid grid = grid_for(mask.lattice);
   add_remark(vesicle.remark, remark_on(mask.lattice, grid));
-  const Fields fields(data, own);
-  vesicle.frame = {.grid = grid,
-                   .phi = {},
-                   .psi = fields.optional("psi", mask.lattice, mask.before),
-                   .c = fields.optional("c", mask.lattice, mask.before)};
+  vesicle.frame = {.grid = grid, .phi = {}, .fields = fields_in(data, phi, own, mask)};
   vesicle.center = place_of(mask.lattice).center;
   vesicle.frame.phi = inside ? phi_of(mask, selection.fill_cavities, grid, vesicle.remark)
                              : resample(std::move(values), mask.lattice, Interpolation::smooth);
@@ -275,8 +269,7 @@ void fill_image(vtkImageData& image, const Frame& frame, const Vec3& center) {
   image.SetSpacing(grid.spacing, grid.spacing, grid.spacing);
   image.SetOrigin(origin.data());
   add_array(image, "phi", frame.phi);
-  add_array(image, "psi", frame.psi);
-  add_array(image, "c", frame.c);
+  for (const auto& [name, values] : frame.fields) add_array(image, name.c_str(), values);
   image.GetPointData()->SetActiveScalars("phi");
   image.GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), frame.time);
 }

@@ -85,7 +85,7 @@ double share_of_Lo(const SmearedStep& step, const Taylor& psi, const Vec3& norma
 
 ShapeMeasures::Phases measure_phases(const Frame& frame, const Sampled& membrane,
                                      const Scene& forces) {
-  const LevelSet psi = fitted(frame.grid, frame.psi);
+  const LevelSet psi = fitted(frame.grid, frame.field("psi"));
   const SurfaceGeometry& surface = membrane.surface;
   const std::vector<Taylor> around = taylor(psi, places(surface.points(), surface.size()));
   const auto step = SmearedStep::accurate(step_half_width * frame.grid.spacing);
@@ -141,7 +141,7 @@ ShapeMeasures measure(const Frame& frame, const Scene& forces) {
   m.components = topology.components;
   m.genus = topology.genus;
   m.neck_radius = thinnest_neck(membrane.phi);
-  if (frame.psi.empty()) {
+  if (!frame.has("psi")) {
     EnergyTerms terms;
     energy.find_energies(surface, terms);
     m.bending_energy = terms.value(Term::bending);

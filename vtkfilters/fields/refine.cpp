@@ -47,23 +47,22 @@ Frame crop(const Frame& frame, double margin) {
     cut[a] = std::max(0, cut[a] - layers);
     kept.nodes[a] -= 2 * cut[a];
   }
-  return {.grid = kept,
-          .time = frame.time,
-          .phi = cropped(frame.phi, grid, cut),
-          .psi = cropped(frame.psi, grid, cut),
-          .c = cropped(frame.c, grid, cut)};
+  Frame out{.grid = kept, .time = frame.time, .phi = cropped(frame.phi, grid, cut)};
+  for (const auto& [name, values] : frame.fields) out.fields[name] = cropped(values, grid, cut);
+  return out;
 }
 
 Frame refine(const Frame& frame, int factor) {
-  Frame fine{
-      .grid = frame.grid, .time = frame.time, .phi = frame.phi, .psi = frame.psi, .c = frame.c};
+  Frame fine{.grid = frame.grid, .time = frame.time, .phi = frame.phi, .fields = frame.fields};
   std::size_t inner = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const int nodes = frame.grid.nodes[axis];
     const std::vector<double> at = positions(nodes, factor);
-    for (std::vector<double>* values : {&fine.phi, &fine.psi, &fine.c})
-      if (!values->empty())
-        *values = interpolate_axis(*values, nodes, inner, at, Interpolation::smooth);
+    const auto interpolate = [&](std::vector<double>& values) {
+      values = interpolate_axis(values, nodes, inner, at, Interpolation::smooth);
+    };
+    interpolate(fine.phi);
+    for (auto& [name, values] : fine.fields) interpolate(values);
     fine.grid.nodes[axis] *= factor;
     inner *= fine.grid.nodes[axis];
   }

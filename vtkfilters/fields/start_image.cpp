@@ -111,8 +111,7 @@ void widen(ImageVesicle& vesicle) {
   };
   frame.grid = to;
   frame.phi = wider(frame.phi, from.spacing);
-  frame.psi = wider(frame.psi, 0);
-  frame.c = wider(frame.c, 0);
+  for (auto& [name, values] : frame.fields) values = wider(values, 0);
   vesicle.center = center;
   add_remark(vesicle.remark, fmt::format("the box was widened from {} to {} nodes, multiples of 8",
                                          fmt::join(from.nodes, " x "), fmt::join(to.nodes, " x ")));

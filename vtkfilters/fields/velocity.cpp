@@ -58,7 +58,7 @@ Forces forces_on(const Frame& frame, const LevelSet& phi, const NarrowBand& band
   Fourier fourier(frame.grid);
   Forces f{std::vector<double>(surface.size(), 0), std::vector<double>(surface.size(), 0)};
   if (scene.has_phases()) {
-    Phases phases(scene, frame.psi, fourier);
+    Phases phases(scene, frame.field("psi"), fourier);
     const Components together(frame.grid, false);
     phases.locate(phi, band, together);
     phases.sample(band, surface, together);
@@ -69,8 +69,9 @@ Forces forces_on(const Frame& frame, const LevelSet& phi, const NarrowBand& band
     for (std::size_t i = 0; i < surface.size(); ++i) f.other[i] -= bulk[i];
   }
   if (scene.stretch.modulus > 0) {
-    StretchField stretch(scene.stretch.modulus, frame.grid, frame.c, fourier);
-    stretch.sample(surface);
+    StretchField stretch(scene.stretch.modulus, frame.grid, fourier);
+    if (frame.has("c")) stretch.c().evolving().fit(frame.field("c"), sweeps);
+    stretch.c().sample(surface);
     stretch.add_variation(surface, f.other);
   }
   const Film film{scene.contact.disjoining_pressure, scene.contact.disjoining_range};
