@@ -186,17 +186,16 @@ void add_view(CLI::App& command, render::View& view) {
       ->type_name("DEGREES");
   command.add_option("--azimuth", view.azimuth, "Of the eye around z, in degrees")
       ->type_name("DEGREES");
-  std::vector<std::string> names;
-  for (const render::Quantity quantity : render::quantities)
-    names.emplace_back(render::to_string(quantity));
+  const auto check = [](const std::string& name) {
+    if (render::is_quantity(name)) return std::string();
+    return fmt::format("\"{}\" is not available; allowed: {}, or a field of the scene", name,
+                       fmt::join(render::quantity_names, ", "));
+  };
   command
       .add_option_function<std::string>(
-          "--color",
-          [&view](const std::string& name) {
-            view.color = *std::ranges::find(render::quantities, name, render::to_string);
-          },
-          "What colours tell: phase, K_M, K, energy_density, c or velocity")
-      ->check(CLI::IsMember(names).description(""))
+          "--color", [&view](const std::string& name) { view.color = {name}; },
+          "What colours tell: phase, K_M, K, energy_density, c, velocity, or one of [[fields]]")
+      ->check(CLI::Validator(check, ""))
       ->type_name("NAME");
 }
 

@@ -94,8 +94,10 @@ void AddEnergyDensity(vtkPolyData& mesh, const LevelSet& phi, const SplineGeomet
 {
   vtkDoubleArray* psi = PsiOf(mesh);
   double* density = AddArray(mesh, "energy_density");
-  const lamella::SurfaceEnergy membrane(forces.membrane, forces.parameters),
-    ld(forces.ld, forces.parameters), lo(forces.lo, forces.parameters);
+  const auto of = [&](const lamella::SurfaceModuli& moduli)
+  { return lamella::SurfaceEnergy(moduli, forces.parameters, forces.fields); };
+  const lamella::SurfaceEnergy membrane = of(forces.membrane), ld = of(forces.ld),
+                               lo = of(forces.lo);
   std::vector<double> slope2(geometry.KM.size(), 0);
   if (std::max({ membrane.needs(), ld.needs(), lo.needs() }) == lamella::Derivatives::sixth)
   {
@@ -106,13 +108,28 @@ void AddEnergyDensity(vtkPolyData& mesh, const LevelSet& phi, const SplineGeomet
     }
     slope2 = lamella::squared_gradient_of_KM(phi, places);
   }
+  std::vector<vtkDataArray*> fields;
+  for (const lamella::MaterialField& field : forces.fields)
+  {
+    fields.push_back(mesh.GetPointData()->GetArray(field.name.c_str()));
+    if (!fields.back())
+    {
+      throw lamella::InputError(
+        "the image has no array \"" + field.name + "\", which its energy depends on");
+    }
+  }
+  std::vector<double> values(fields.size());
   for (std::size_t n = 0; n < geometry.KM.size(); ++n)
   {
     const bool isLd = psi && psi->GetValue(static_cast<vtkIdType>(n)) < 0;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+    {
+      values[i] = fields[i]->GetComponent(static_cast<vtkIdType>(n), 0);
+    }
     density[n] = (isLd ? ld
         : psi          ? lo
                        : membrane)
-                   .density(geometry.KM[n], geometry.K[n], slope2[n]);
+                   .density(geometry.KM[n], geometry.K[n], slope2[n], values);
   }
 }
 

@@ -148,6 +148,17 @@ const char* vtkVesicleDynamics::GetParameters()
   return this->Scene->parameters_text.c_str();
 }
 
+void vtkVesicleDynamics::SetFields(const char* value)
+{
+  if (lamella::set_fields(*this->Scene, value ? value : ""))
+    this->Modified();
+}
+
+const char* vtkVesicleDynamics::GetFields()
+{
+  return this->Scene->fields_text.c_str();
+}
+
 vtkVesicleDynamics::vtkVesicleDynamics()
   : Scene(std::make_unique<lamella::PropertyScene>())
   , Round(std::make_unique<lamella::UpdateRound>())

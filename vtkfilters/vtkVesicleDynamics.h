@@ -395,6 +395,15 @@ public:
   ///@}
 
   ///@{
+  /** [[fields]]: scalars that move with the membrane, for densities to depend on, each as in
+   * {name = "m", start = "z", carried = "value"}, several with commas between them. `start` is a
+   * formula of x, y, z, or a point array of the image; without it, the array of the field's name.
+   * Default none. */
+  void SetFields(const char* value);
+  const char* GetFields();
+  ///@}
+
+  ///@{
   /** [stretch] modulus: modulus mu that resists local stretch; 0: the membrane flows freely within
    * each phase. A number from 0 to 1e+30; energy/length^2. Default 0. */
   void SetStretchModulus(double value);

@@ -134,15 +134,11 @@ bool ascending(const std::vector<double>& values) {
 }
 
 void take_color(Keys& keys, render::View& view) {
-  std::string name(to_string(view.color));
-  const auto& names = render::quantities;
-  std::vector<std::string_view> allowed;
-  for (const render::Quantity quantity : names) allowed.push_back(to_string(quantity));
-  const std::string text = fmt::format("\"{}\"", fmt::join(allowed, "\", \""));
-  keys.take("color", name, text);
-  const auto found = std::ranges::find(allowed, name);
-  if (found == allowed.end()) keys.check("color", false, text + suggestion(name, allowed));
-  view.color = names[found - allowed.begin()];
+  const std::string text =
+      fmt::format("\"{}\", or a field of the scene", fmt::join(render::quantity_names, "\", \""));
+  keys.take("color", view.color.name, text);
+  const std::string& name = view.color.name;
+  keys.check("color", render::is_quantity(name), text + suggestion(name, render::quantity_names));
 }
 
 /// A number, or a range of two.

@@ -150,7 +150,7 @@ void add_membrane(vtkRenderer& renderer, const Surface& surface, const Coloring&
     }
     return;
   }
-  const std::string name(to_string(coloring.quantity));
+  const std::string& name = coloring.quantity.name;
   vtkDataArray* values = surface.mesh->GetPointData()->GetArray(name.c_str());
   const Paint paint = [&](vtkIdType n) { return coloring.palette->at(values->GetComponent(n, 0)); };
   renderer.AddActor(membrane_actor(*surface.mesh, paint, viewpoint));

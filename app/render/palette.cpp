@@ -16,17 +16,11 @@ namespace {
 constexpr int steps = 256;
 
 /// Where the colours turn, if anywhere.
-std::optional<double> middle(Quantity quantity) {
-  switch (quantity) {
-  case Quantity::K_M:
-  case Quantity::K:
-  case Quantity::velocity:
+std::optional<double> middle(const Quantity& quantity) {
+  if (quantity == Quantity::c) return 1;
+  if (quantity == Quantity::K_M || quantity == Quantity::K || quantity == Quantity::velocity)
     return 0;
-  case Quantity::c:
-    return 1;
-  default:
-    return {};
-  }
+  return {};
 }
 
 void add(vtkColorTransferFunction& function, double at, const Color& color) {
@@ -35,7 +29,7 @@ void add(vtkColorTransferFunction& function, double at, const Color& color) {
 
 } // namespace
 
-Palette::Palette(Quantity quantity, ValueRange range) : range_(range) {
+Palette::Palette(const Quantity& quantity, ValueRange range) : range_(range) {
   vtkNew<vtkColorTransferFunction> function;
   if (middle(quantity)) {
     function->SetColorSpaceToDiverging();
@@ -60,11 +54,10 @@ const Color& Palette::at(double value) const {
   return colors_[std::size_t(std::lround(std::clamp(s, 0.0, 1.0) * (steps - 1)))];
 }
 
-ValueRange range_of(Quantity quantity, const std::vector<Surface>& surfaces) {
-  const std::string name(to_string(quantity));
+ValueRange range_of(const Quantity& quantity, const std::vector<Surface>& surfaces) {
   std::vector<double> values;
   for (const Surface& surface : surfaces) {
-    vtkDataArray* array = surface.mesh->GetPointData()->GetArray(name.c_str());
+    vtkDataArray* array = surface.mesh->GetPointData()->GetArray(quantity.name.c_str());
     for (vtkIdType n = 0; n < array->GetNumberOfTuples(); ++n)
       if (std::isfinite(array->GetTuple1(n))) values.push_back(array->GetTuple1(n));
   }

@@ -16,7 +16,7 @@ struct ValueRange {
 /// middle, or from pale to dark where there is none.
 class Palette {
 public:
-  Palette(Quantity quantity, ValueRange range);
+  Palette(const Quantity& quantity, ValueRange range);
 
   /// Of a value; those beyond the range have the colour of its end.
   const Color& at(double value) const;
@@ -29,6 +29,6 @@ private:
 
 /// A range for all but the most extreme hundredths of a quantity on several surfaces; symmetric
 /// about 0, or 1 for c, where the quantity has a middle there.
-ValueRange range_of(Quantity quantity, const std::vector<Surface>& surfaces);
+ValueRange range_of(const Quantity& quantity, const std::vector<Surface>& surfaces);
 
 } // namespace lamella::render

@@ -49,7 +49,7 @@ State StoredStates::at(double time) const {
 }
 
 std::vector<Surface> surfaces_at(const StoredStates& run, const std::vector<double>& times,
-                                 Quantity quantity) {
+                                 const Quantity& quantity) {
   std::vector<Surface> surfaces;
   for (const double time : times) surfaces.push_back(extract_surface(run.at(time), quantity));
   return surfaces;

@@ -34,7 +34,7 @@ private:
 };
 
 std::vector<Surface> surfaces_at(const StoredStates& run, const std::vector<double>& times,
-                                 Quantity quantity);
+                                 const Quantity& quantity);
 
 struct PictureOptions {
   std::string backend = "auto"; ///< auto, osmesa, egl or x; see vtkLamellaOffscreen

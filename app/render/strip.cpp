@@ -37,7 +37,7 @@ void add_legend(Sheet& sheet, const Vec2& left) {
 }
 
 /// The colours of a quantity and their values, from `left` on.
-void add_color_bar(Sheet& sheet, const Vec2& left, const Palette& palette, Quantity quantity,
+void add_color_bar(Sheet& sheet, const Vec2& left, const Palette& palette, const Quantity& quantity,
                    const Units& units) {
   constexpr double length = 360, thickness = 26;
   const auto [low, high] = palette.range();
@@ -50,7 +50,7 @@ void add_color_bar(Sheet& sheet, const Vec2& left, const Palette& palette, Quant
   sheet.text({x, left[1]}, number(low, 2), small);
   x += text_width(number(low, 2), small) + 16;
   sheet.picture({x, top, length, thickness}, bar);
-  sheet.text({x + length / 2, top - 16}, notation_of(to_string(quantity)).title(units),
+  sheet.text({x + length / 2, top - 16}, notation_on_membrane(quantity.name).title(units),
              {style::small_type, style::ink, 0.5});
   sheet.text({x + length + 16, left[1]}, number(high, 2), small);
 }
@@ -132,7 +132,7 @@ Strip::Strip(Heading heading, std::vector<Surface> states, const View& view, dou
 }
 
 void draw_keys(Sheet& sheet, const Box& place, double scale, const Palette* palette,
-               Quantity quantity, const Units& units, bool phases, double longest) {
+               const Quantity& quantity, const Units& units, bool phases, double longest) {
   if (palette)
     add_color_bar(sheet, {place.left, place.top}, *palette, quantity, units);
   else if (phases)

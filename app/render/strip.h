@@ -47,6 +47,6 @@ private:
 /// Along the upper side of a box: what colours mean, if anything, and at its right end a scale bar,
 /// not longer than `longest`. `scale`: units of the sheet per length of the box.
 void draw_keys(Sheet& sheet, const Box& place, double scale, const Palette* palette,
-               Quantity quantity, const Units& units, bool phases, double longest);
+               const Quantity& quantity, const Units& units, bool phases, double longest);
 
 } // namespace lamella::render

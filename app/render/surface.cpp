@@ -8,6 +8,7 @@
 #include "render/labels.h"
 #include "render/occlusion.h"
 #include "render/render.h"
+#include "scene/densities.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
@@ -86,7 +87,7 @@ Surface extract(vtkImageData& image, const Frame& frame, bool with_curvatures) {
 /// In the unit of pictures.
 void scale(vtkPolyData& mesh, const std::string& name, const Units& units) {
   vtkDataArray* values = mesh.GetPointData()->GetArray(name.c_str());
-  const Notation& notation = notation_of(name);
+  const Notation notation = notation_on_membrane(name);
   for (vtkIdType n = 0; n < values->GetNumberOfTuples(); ++n)
     values->SetComponent(n, 0, notation.value(values->GetComponent(n, 0), units));
 }
@@ -109,9 +110,8 @@ void project_velocity(vtkPolyData& mesh) {
 
 } // namespace
 
-std::string_view to_string(Quantity quantity) {
-  constexpr std::string_view names[]{"phase", "K_M", "K", "energy_density", "c", "velocity"};
-  return names[std::size_t(quantity)];
+bool is_quantity(std::string_view name) {
+  return std::ranges::count(quantity_names, name) > 0 || is_name_to_give(name);
 }
 
 Surface extract_surface(const Frame& frame) {
@@ -120,7 +120,7 @@ Surface extract_surface(const Frame& frame) {
   return extract(*image, frame, false);
 }
 
-Surface extract_surface(const State& state, Quantity quantity) {
+Surface extract_surface(const State& state, const Quantity& quantity) {
   if (quantity == Quantity::phase) {
     Surface surface = extract_surface(state.frame);
     surface.units = Units(state.scene);
@@ -129,12 +129,12 @@ Surface extract_surface(const State& state, Quantity quantity) {
   vtkNew<vtkImageData> image;
   fill_state(*image, state.frame, state.measures, state.scene, state.vesicles);
   Surface surface = extract(*image, state.frame, quantity != Quantity::c);
-  const std::string name(to_string(quantity));
+  const std::string& name = quantity.name;
   if (!surface.mesh->GetPointData()->HasArray(name.c_str()))
     throw RenderError(
         "colours of " + name +
         " need a field that the run does not have; c needs [stretch] modulus above 0, velocity one "
-        "vesicle, or several that hold volume and area together");
+        "vesicle, or several that hold volume and area together, others one of [[fields]]");
   if (quantity == Quantity::velocity) project_velocity(*surface.mesh);
   surface.units = Units(state.scene);
   scale(*surface.mesh, name, surface.units);

@@ -8,17 +8,26 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <string>
 #include <string_view>
 
 namespace lamella::render {
 
-/// What colours on a membrane tell. phase: Ld red, Lo blue; one colour where there is one phase.
-enum class Quantity { phase, K_M, K, energy_density, c, velocity };
+/// What colours on a membrane tell, by its name as in scenes and on the command line: one of those
+/// below, or a material field. phase: Ld red, Lo blue; one colour where there is one phase.
+struct Quantity {
+  std::string name;
 
-/// As in scenes and on the command line: "phase", "K_M", "K", "energy_density", "c", "velocity".
-std::string_view to_string(Quantity quantity);
-constexpr Quantity quantities[]{Quantity::phase,          Quantity::K_M, Quantity::K,
-                                Quantity::energy_density, Quantity::c,   Quantity::velocity};
+  static const Quantity phase, K_M, K, energy_density, c, velocity;
+  bool operator==(const Quantity&) const = default;
+};
+inline const Quantity Quantity::phase{"phase"}, Quantity::K_M{"K_M"}, Quantity::K{"K"},
+    Quantity::energy_density{"energy_density"}, Quantity::c{"c"}, Quantity::velocity{"velocity"};
+
+/// Those that are always known.
+constexpr std::string_view quantity_names[]{"phase", "K_M", "K", "energy_density", "c", "velocity"};
+/// Whether there can be one of this name.
+bool is_quantity(std::string_view name);
 
 /// The membrane of a frame, ready to draw or to cut.
 struct Surface {
@@ -47,6 +56,6 @@ Surface extract_surface(const Frame& frame);
 /// With the array that a quantity needs, named after it and of one component, in the unit of
 /// pictures; the velocity is that along the normal. Throws RenderError too where the state does not
 /// have it.
-Surface extract_surface(const State& state, Quantity quantity);
+Surface extract_surface(const State& state, const Quantity& quantity);
 
 } // namespace lamella::render

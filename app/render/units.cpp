@@ -151,6 +151,11 @@ const Notation& notation_of(std::string_view name) {
   throw std::logic_error(std::string(name) + " has no notation");
 }
 
+Notation notation_on_membrane(std::string_view name) {
+  if (const Notation* notation = find_notation(name)) return *notation;
+  return {"", fmt::format("*{}*", name)};
+}
+
 std::string time_label(double time, const Units& units) {
   const Notation& t = notation_of("t");
   const std::string value = t.letter + " = " + number(t.value(time, units));

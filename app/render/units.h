@@ -42,6 +42,8 @@ std::string with_unit(const std::string& name, const std::string& unit);
 const Notation* find_notation(std::string_view name);
 /// Of what is one of them.
 const Notation& notation_of(std::string_view name);
+/// Of any field on the membrane: that of a material field is its name.
+Notation notation_on_membrane(std::string_view name);
 
 /// "*t* = 1.6×10⁻³ *ζL*⁴/*κ*", "*t* = 0", of a time of the scene.
 std::string time_label(double time, const Units& units);

@@ -52,6 +52,7 @@ inline const std::vector<Group>& panel_groups() {
            {"membrane.gradient_modulus", "Gradient Modulus (εℓ²)", advanced},
            {"membrane.density", "Density (ε⁄ℓ²)", advanced},
            {"parameters", "Parameters", advanced},
+           {"fields", "Fields", advanced},
            {"stretch.modulus", "Stretch Modulus μ (ε⁄ℓ²)", advanced},
        }},
       {"Phases",

@@ -24,7 +24,8 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
 }
 
 bool has(Owner owner, const Key& key) {
-  if (key.section.empty() || key.name == "start_times") return false; // the latter with targets
+  if (key.section.empty()) return key.name == "fields" && owner != Owner::source;
+  if (key.name == "start_times") return false; // with targets
   if (owner == Owner::vesicle) return true;
   const bool of_source = is_one_of(key.section, {"grid", "shape", "perturbation", "domains"}) &&
                          key.name != "curvature_start_time";
@@ -63,6 +64,8 @@ std::string documentation(const Key& key) {
   text[0] = char(std::toupper(text[0]));
   if (!key.unit.empty()) text += fmt::format("; unit: {}", key.unit);
   if (key.name.empty()) text += "; all of them in one line, as in a = 3, b = -2";
+  if (key.name == "fields")
+    text += R"(; as in {name = "m", start = "1 + 0.2*z", carried = "value"})";
   return fmt::format("{}. Allowed: {}. In scene files: {}.", text, allowed_text(key), key.label());
 }
 
@@ -141,6 +144,10 @@ struct FormOf {
     return {"StringVectorProperty",
             setter(owner, key, "Text") + R"( number_of_elements="1" default_values="")"};
   }
+  Form operator()(Member<MaterialFields>) {
+    return {"StringVectorProperty",
+            setter(owner, key, "Text") + R"( number_of_elements="1" default_values="")"};
+  }
   Form operator()(const Choice& choice) {
     Form form{"StringVectorProperty",
               fmt::format(R"({} number_of_elements="1" default_values="{}")",
@@ -188,7 +195,10 @@ std::string parameters(Owner owner) {
     std::string members;
     for (const Label& label : group.labels) {
       const auto dot = label.key.find('.');
-      const Key* key = find_key(label.key.substr(0, dot), label.key.substr(dot + 1));
+      const Key* key = dot != label.key.npos
+                           ? find_key(label.key.substr(0, dot), label.key.substr(dot + 1))
+                       : keys_of_section(label.key).empty() ? find_key("", label.key)
+                                                            : find_key(label.key, "");
       if (!key) throw std::runtime_error(fmt::format("labels.h: there is no {}", label.key));
       if (!has(owner, *key)) continue;
       properties += property(owner, *key, label);

@@ -72,6 +72,11 @@ bool SetMember(lamella::PropertyScene& scene, const lamella::Key& key, const std
     lamella::set_parameters(scene, value);
     return true;
   }
+  if (std::holds_alternative<Member<lamella::MaterialFields>>(key.access))
+  {
+    lamella::set_fields(scene, value);
+    return true;
+  }
   if (std::holds_alternative<lamella::Choice>(key.access))
   {
     lamella::set_choice(scene, key, value);

@@ -1,6 +1,7 @@
 #include "widgets/scene_properties.h"
 
 #include "proxies/names.h"
+#include "scene/scene_toml.h"
 
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
@@ -25,6 +26,10 @@ struct Setter
   void operator()(Member<bool> flag) const { property().Set(int(flag(scene))); }
   void operator()(Member<std::string> text) const { property().Set(text(scene).c_str()); }
   void operator()(Member<Parameters>) const { property().Set(value_text(key, scene).c_str()); }
+  void operator()(Member<MaterialFields> fields) const
+  {
+    property().Set(text_of(fields(scene)).c_str());
+  }
   void operator()(Member<Vec3> x) const { property().Set(x(scene).data(), 3); }
   void operator()(Member<std::array<int, 3>> n) const { property().Set(n(scene).data(), 3); }
   void operator()(const Choice& choice) const
@@ -60,7 +65,7 @@ struct Setter
 void set_properties(vtkSMProxy& vesicle, Scene scene)
 {
   for (const Key& key : scene_keys())
-    if (!key.section.empty())
+    if (!key.section.empty() || key.name == "fields") // a name and a title are for files
       std::visit(Setter{ vesicle, key, scene }, key.access);
 }
 

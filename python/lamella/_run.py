@@ -20,8 +20,9 @@ class Frame:
     time      of the state
     phi       level set, negative inside; float64, shape (nz, ny, nx)
     psi, c    phases (negative in Ld) and local stretch, likewise; None where there are none
+    fields    these and material fields by their names: dict of arrays, likewise
     measures  dict of floats, named as the columns of the history: energy, P, sigma, A, V, v, ...
-    image     all of it as vtkImageData, for VTK filters; phi, psi and c are views of its arrays
+    image     all of it as vtkImageData, for VTK filters; phi and fields are views of its arrays
     """
 
     def __init__(self, image):
@@ -31,6 +32,7 @@ class Frame:
         self.measures = fields(image)
         found = arrays(self.image)
         self.phi, self.psi, self.c = found["phi"], found.get("psi"), found.get("c")
+        self.fields = {name: view for name, view in found.items() if name != "phi"}
 
     def surface(self, **properties):
         """The membrane as triangles: vtkPolyData, see vtkMembraneSurface."""

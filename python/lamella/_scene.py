@@ -50,6 +50,9 @@ def _value(value):
         value = value.tolist()
     if isinstance(value, os.PathLike):
         value = os.fsdecode(value)
+    if isinstance(value, Mapping):
+        pairs = ((_key(key), one) for key, one in value.items() if one is not None)
+        return "{" + ", ".join(f"{key} = {_value(one)}" for key, one in pairs) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(one) for one in value) + "]"
     if isinstance(value, str):

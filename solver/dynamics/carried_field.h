@@ -5,6 +5,7 @@
 #include "levelset/extension.h"
 #include "scene/scene.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,20 +35,28 @@ public:
   /// velocity is v.
   double rate(std::size_t sample, double KM, double v) const { return jets_[sample].f * KM * v; }
   /// Makes the field constant along normals again, where the membrane moved through it, and puts
-  /// back what was lost or gained of an amount on the way.
-  void extend(const NarrowBand& band, const SurfaceGeometry& surface, Extension& extension);
+  /// back what was lost or gained of an amount on the way. On the membrane itself it stays as it
+  /// is; or, with `smoothing`, loses a little of what is as short as the grid.
+  void extend(const NarrowBand& band, const SurfaceGeometry& surface, Extension& extension,
+              bool smoothing);
 
   /// int m dA as it was at the start; 0 where it is not kept.
   double amount() const { return amount_.value_or(0); }
   /// Goes on from stored coefficients and their amount().
   void restore(std::span<const double> coefficients, double amount);
 
+  /// Values that a function of place has on the membrane: a field that starts from them.
+  void start(const std::function<double(const Vec3&)>& value, const NarrowBand& band,
+             Extension& extension);
+
 private:
   Carried carried_;
   EvolvingField field_;
   std::vector<SurfaceJet<double>> jets_;
-  std::vector<double> off_;
   std::optional<double> amount_; // once it is known, where it is kept
 };
+
+/// What densities need of material fields.
+std::vector<std::span<const SurfaceJet<double>>> jets_of(std::span<const CarriedField> fields);
 
 } // namespace lamella

@@ -41,7 +41,7 @@ PhaseIntegrals& PhaseIntegrals::operator+=(const PhaseIntegrals& o) {
 Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier)
     : h_(scene.grid().spacing), ld_(scene.ld), lo_(scene.lo),
       curvature_start_time_(scene.curvature_start_time), parameters_(scene.parameters),
-      line_(scene.line), line_forces_(scene.line, scene.parameters, h_),
+      fields_(scene.fields), line_(scene.line), line_forces_(scene.line, scene.parameters, h_),
       profiles_(StepProfiles::of_grid(h_)),
       held_(scene.stretch.modulus > 0, scene.area.of == Of::each, h_),
       field_("psi", scene.grid(), fourier) {
@@ -53,7 +53,7 @@ Phases::Phases(const Scene& scene, std::span<const double> psi, Fourier& fourier
 SurfaceEnergy Phases::surface_energy(double time) const {
   SurfaceModuli ld = ld_, lo = lo_;
   if (!is_curved(time)) ld.spontaneous_curvature = lo.spontaneous_curvature = 0;
-  return {ld, lo, line_.geodesic_modulus, profiles_, parameters_};
+  return {ld, lo, line_.geodesic_modulus, profiles_, parameters_, fields_};
 }
 
 double Phases::saturated(double s) const {
@@ -190,8 +190,8 @@ void Phases::sample(const NarrowBand& band, const SurfaceGeometry& surface,
 }
 
 void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, SurfaceEnergy& energy,
-                         std::span<double> variation) {
-  find_boundary_force(phi, energy);
+                         std::span<double> variation, std::span<const CarriedField> fields) {
+  find_boundary_force(phi, fields, energy);
   is_Ld_.resize(surface.size());
   for (std::size_t i = 0; i < surface.size(); i++) is_Ld_[i] = share_[i] > 0.5;
   jets_.sample.clear();
@@ -203,7 +203,7 @@ void Phases::find_forces(const LevelSet& phi, const SurfaceGeometry& surface, Su
   });
   jets_.further.clear();
   if (energy.gradient_differs()) find_further(surface);
-  energy.find_forces(surface, is_Ld_, jets_, variation);
+  energy.find_forces(surface, is_Ld_, jets_, variation, jets_of(fields));
   add_line_forces(surface, variation);
 }
 
@@ -264,7 +264,8 @@ void Phases::spread_line_forces(const SurfaceGeometry& surface, std::span<double
 
 /// The force along n on each point of the boundary. What the strip does as a whole is summed along
 /// the geodesic through the point, by Gauss's rule.
-void Phases::find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energy) {
+void Phases::find_boundary_force(const LevelSet& phi, std::span<const CarriedField> fields,
+                                 const SurfaceEnergy& energy) {
   const std::span<const BoundaryPoint> curve = boundary_.points();
   line_forces_.find(boundary_, phi);
   const LineForces::Stiffness of_line = line_forces_.of_boundary();
@@ -305,12 +306,20 @@ void Phases::find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energ
     for (const Vector3d& p : points) places.push_back({p[0], p[1], p[2]});
     slope2 = squared_gradient_of_KM(phi, places);
   }
+  std::vector<double> at_points(fields.size() * points.size()); // of each point in turn
+  for (std::size_t m = 0; m < fields.size(); m++) {
+    const std::vector<Taylor> values = taylor(fields[m].spline(), points);
+    for (std::size_t i = 0; i < points.size(); i++)
+      at_points[i * fields.size() + m] = values[i].value;
+  }
   for (std::size_t j = 0; j < curve.size(); j++) {
     double slope = 0; // of the force as the boundary moves
     for (int q = 0; q < rule; q++) {
       const std::size_t i = rule * j + q;
       const CurveGeometry c = curve_geometry(f[i], to_boundary[i]);
-      const Univariate density = energy.across(to_boundary[i].value, c.KM(), c.K(), slope2[i]);
+      const Univariate density =
+          energy.across(to_boundary[i].value, c.KM(), c.K(), slope2[i],
+                        std::span(at_points).subspan(i * fields.size(), fields.size()));
       if (!std::isfinite(density.d1)) continue;
       const double s = node[q] * reach, width = weight[q] * reach * (1 - curve[j].kg * s);
       force_[j] += width * density.d1;

@@ -47,9 +47,10 @@ public:
   /// Finds the phases of the samples: all that integrals of the phases need.
   void sample(const NarrowBand& band, const SurfaceGeometry& surface, const Components& vesicles);
   /// The variation F of the energy (a normal displacement u changes it by int F u dA) at the
-  /// samples, and the force on the boundary. sample() up to date, fourth derivatives known.
+  /// samples, and the force on the boundary. sample() up to date, fourth derivatives and material
+  /// fields known.
   void find_forces(const LevelSet& phi, const SurfaceGeometry& surface, SurfaceEnergy& energy,
-                   std::span<double> variation);
+                   std::span<double> variation, std::span<const CarriedField> fields = {});
 
   /// Lets the boundary be carried along by the flow of lipid.
   void add_flow(const StretchField& stretch);
@@ -133,7 +134,8 @@ private:
   void find_further(const SurfaceGeometry& surface);
   void add_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const;
   void restore_distance(const NarrowBand& band);
-  void find_boundary_force(const LevelSet& phi, const SurfaceEnergy& energy);
+  void find_boundary_force(const LevelSet& phi, std::span<const CarriedField> fields,
+                           const SurfaceEnergy& energy);
   void spread_line_forces(const SurfaceGeometry& surface, std::span<double> variation) const;
   double saturated(double s) const;
   double boundary_taper(double s) const;
@@ -144,6 +146,7 @@ private:
   SurfaceModuli ld_, lo_;
   double curvature_start_time_;
   Parameters parameters_;
+  MaterialFields fields_;
   Line line_;
   LineForces line_forces_;
   StepProfiles profiles_;

@@ -115,6 +115,7 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
   }
   if (vesicle_.phases()) predict_boundary(dt);
   if (vesicle_.stretch()) step_stretch(dt);
+  step_materials(dt);
   holdings_ = vesicle_.holdings();
   apply_constrained(then);
   error_ = std::max(step_error(), boundary_error());
@@ -177,7 +178,24 @@ void Simulation::step_stretch(double dt) {
   EvolvingField& c = stretch.c().evolving();
   c.stepper().predict(vesicle_.extension(), dt, {0, stretch.law().diffusivity()});
   c.stepper().apply(c.spline(), {}, 0);
-  stretch.c().extend(vesicle_.band(), surface, vesicle_.extension());
+  // Lipid flows, and what is short would come to nothing anyway.
+  stretch.c().extend(vesicle_.band(), surface, vesicle_.extension(), true);
+}
+
+/// What has a value moves with the membrane as extend() lets it; an amount thins or thickens too.
+void Simulation::step_materials(double dt) {
+  const SurfaceGeometry& surface = vesicle_.surface();
+  for (CarriedField& field : vesicle_.materials()) {
+    EvolvingField& m = field.evolving();
+    if (field.carried() == Carried::amount) {
+      extend([&](std::size_t i) { return field.rate(i, surface.KM()[i], vesicle_.velocity(i)); });
+      m.stepper().predict(vesicle_.extension(), dt, {0, 0});
+      m.stepper().apply(m.spline(), {}, 0);
+    } else {
+      m.keep();
+    }
+    field.extend(vesicle_.band(), surface, vesicle_.extension(), false);
+  }
 }
 
 /// Adds to the step's increment what leads the constraints to their targets to first order: the

@@ -92,6 +92,7 @@ private:
   void take_back(const Failure& failure, double dt);
   void predict_boundary(double dt);
   void step_stretch(double dt);
+  void step_materials(double dt);
   void apply_constrained(double time);
   void apply_to_each(const Eigen::Matrix4Xd& factors);
   template <class Rate>

@@ -1,10 +1,12 @@
 #include "dynamics/start.h"
 
 #include "error.h"
+#include "scene/densities.h"
 #include "scene/domains.h"
 #include "scene/shapes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace lamella {
 
@@ -39,6 +41,13 @@ std::vector<double> stored_psi(const Scene& scene, const Frame& membrane) {
   return psi;
 }
 
+std::string arrays_text(const Frame& frame) {
+  std::vector<std::string> names;
+  for (const auto& [name, values] : frame.fields) names.push_back(name);
+  return names.empty() ? "there is none but the membrane's"
+                       : fmt::format("there are {}", fmt::join(names, ", "));
+}
+
 } // namespace
 
 Start start_of(const Scene& scene, Frame frame) {
@@ -47,6 +56,14 @@ Start start_of(const Scene& scene, Frame frame) {
   if (scene.has_phases()) start.fields["psi"] = stored_psi(scene, frame);
   if (scene.stretch.modulus > 0 && frame.has("c"))
     start.fields["c"] = std::move(frame.fields.at("c"));
+  for (const MaterialField& field : scene.fields) {
+    const auto array = array_of(field, scene.parameters);
+    if (!array) continue;
+    if (!frame.has(*array))
+      throw RunError(fmt::format("the field {} starts from an array \"{}\" that is not there; {}",
+                                 field.name, *array, arrays_text(frame)));
+    start.fields[field.name] = frame.fields.at(*array);
+  }
   start.phi = std::move(frame.phi);
   return start;
 }

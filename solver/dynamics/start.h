@@ -16,7 +16,7 @@ struct Start {
   };
   std::vector<double> phi{}; ///< the membrane, negative inside
   /// psi with phases, about the signed distance from their boundary; c of local stretch where a
-  /// stored frame has it, else 1.
+  /// stored frame has it, else 1; material fields that start from arrays.
   NodalFields fields{};
   std::optional<Exact> exact{}; ///< of the shape itself, where it is known
   std::array<int, 3> cells{};   ///< by which the box of a stored frame had moved

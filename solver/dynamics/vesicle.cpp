@@ -2,8 +2,10 @@
 
 #include "dynamics/event.h"
 #include "error.h"
+#include "expression/formula.h"
 #include "levelset/topology.h"
 #include "parallel.h"
+#include "scene/densities.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +44,11 @@ double mean(const Eigen::MatrixXd& number, const Eigen::MatrixXd& weight) {
   return sum == 0 ? 0 : number.cwiseProduct(weight).sum() / sum;
 }
 
+Vec3 moved(Vec3 place, const std::array<int, 3>& cells, double spacing) {
+  for (int d = 0; d < 3; d++) place[d] += cells[d] * spacing;
+  return place;
+}
+
 double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::pi)); }
 } // namespace
 
@@ -49,10 +56,9 @@ double sphere_radius(double area) { return std::sqrt(area / (4 * std::numbers::p
 Vesicle::Vesicle(const Scene& scene, Fourier& fourier, const SurfaceTerms& more)
     : fourier_(fourier), ld_(scene.has_phases() ? scene.ld : scene.membrane),
       lo_(scene.has_phases() ? scene.lo : scene.membrane), more_(more),
-      energy_(scene.membrane, scene.parameters), film_{scene.contact.disjoining_pressure,
-                                                       scene.contact.disjoining_range},
-      constraints_(scene), phi_(scene.grid()), band_(scene.grid(), band_half_width),
-      extension_(scene.grid()),
+      energy_(scene.membrane, scene.parameters, scene.fields),
+      film_{scene.contact.disjoining_pressure, scene.contact.disjoining_range}, constraints_(scene),
+      phi_(scene.grid()), band_(scene.grid(), band_half_width), extension_(scene.grid()),
       surface_(scene.has_phases() ? QuadratureKernel::symmetric() : QuadratureKernel::outside()),
       components_(scene.grid(), keeps_apart(scene)) {
   set_energy(energy_);
@@ -77,6 +83,7 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier, const
   locate();
   components_.settle();
   surface_.curvatures(phi_, band_);
+  start_materials(scene, start, fourier);
   integrate_all(false);
   Quantities begin = quantities(of_each_);
   if (start.exact && begin.cols() == 1) {
@@ -106,10 +113,12 @@ Vesicle::State Vesicle::state() const {
   state.constraints = constraints_.state();
   state.constraints.share = origin_.constraints.share;
   state.constraints.group = origin_.constraints.group;
-  if (stretch_) {
-    const std::span<const double> c = stretch_->c().spline().coefficients();
-    state.fields["c"] = {{c.begin(), c.end()}, stretch_->c().amount()};
-  }
+  const auto add = [&](const CarriedField& field) {
+    const std::span<const double> c = field.spline().coefficients();
+    state.fields[field.evolving().name()] = {{c.begin(), c.end()}, field.amount()};
+  };
+  if (stretch_) add(stretch_->c());
+  for (const CarriedField& field : materials_) add(field);
   return state;
 }
 
@@ -128,6 +137,11 @@ Vesicle::Vesicle(const Scene& scene, const State& state, double time, Fourier& f
     const State::Field& c = state.fields.at("c");
     stretch_.emplace(scene.stretch.modulus, scene.grid(), fourier);
     stretch_->c().restore(c.coefficients, c.amount);
+  }
+  for (const MaterialField& field : scene.fields) {
+    const State::Field& from = state.fields.at(field.name);
+    materials_.emplace_back(field.name, field.carried, scene.grid(), fourier);
+    materials_.back().restore(from.coefficients, from.amount);
   }
   band_.restore(state.band);
   restore({state.vesicle_of_node, state.constraints});
@@ -150,6 +164,31 @@ void Vesicle::set_phases(const Scene& scene, std::span<const double> psi, Fourie
   phases_.emplace(scene, psi, fourier);
   set_energy(phases_->surface_energy(0));
   energy_is_curved_ = phases_->is_curved(0);
+}
+
+/// Band entries have their nearest points by now: there formulas are taken.
+void Vesicle::start_materials(const Scene& scene, const Start& start, Fourier& fourier) {
+  for (const MaterialField& field : scene.fields) {
+    CarriedField& material =
+        materials_.emplace_back(field.name, field.carried, scene.grid(), fourier);
+    if (const auto from = start.fields.find(field.name); from != start.fields.end()) {
+      material.evolving().fit(from->second, 60);
+      continue;
+    }
+    const Tape tape = read_formula(field.start, names_in_space(scene.parameters)).tape;
+    std::vector<double> registers;
+    const auto value = [&](const Vec3& place) {
+      double result = 0;
+      const Vec3 in_space = moved(place, start.cells, grid().spacing);
+      tape.evaluate<double>(in_space, {&result, 1}, registers);
+      if (!std::isfinite(result))
+        throw RunError(fmt::format("the field {} is not finite at ({:.4g}, {:.4g}, {:.4g}) on the "
+                                   "start shape; its start must be a number everywhere there",
+                                   field.name, in_space[0], in_space[1], in_space[2]));
+      return result;
+    };
+    material.start(value, band_, extension_);
+  }
 }
 
 /// Those that are left to the size of the vesicle.
@@ -407,12 +446,15 @@ void Vesicle::measure_forces(double time) {
     laplacian_->find(phi_, band_, surface_, extension_);
     surface_.differentiate(laplacian_->spline());
   }
+  for (CarriedField& field : materials_) field.sample(surface_);
+  const auto fields = jets_of(materials_);
   variation_.resize(surface_.size());
   if (phases_)
-    phases_->find_forces(phi_, surface_, energy_, variation_);
+    phases_->find_forces(phi_, surface_, energy_, variation_, materials_);
   else
-    energy_.find_forces(surface_, {}, {}, variation_);
-  stiffness_ = energy_.stiffness(surface_, phases_ ? phases_->is_Ld() : std::span<const char>());
+    energy_.find_forces(surface_, {}, {}, variation_, fields);
+  stiffness_ =
+      energy_.stiffness(surface_, phases_ ? phases_->is_Ld() : std::span<const char>(), fields);
   if (stretch_) {
     stretch_->c().sample(surface_);
     stretch_->add_variation(surface_, variation_);
@@ -645,6 +687,7 @@ std::vector<EvolvingField*> Vesicle::fields() {
   std::vector<EvolvingField*> all;
   if (phases_) all.push_back(&phases_->evolving());
   if (stretch_) all.push_back(&stretch_->c().evolving());
+  for (CarriedField& field : materials_) all.push_back(&field.evolving());
   return all;
 }
 

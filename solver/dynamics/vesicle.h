@@ -134,6 +134,8 @@ public:
   /// Where the scene has a stretch modulus.
   StretchField* stretch() { return stretch_ ? &*stretch_ : nullptr; }
   const StretchField* stretch() const { return stretch_ ? &*stretch_ : nullptr; }
+  /// The scene's material fields.
+  std::span<CarriedField> materials() { return materials_; }
   /// All that evolve on the membrane, those that the scene has.
   std::vector<EvolvingField*> fields();
   std::vector<const EvolvingField*> fields() const;
@@ -159,6 +161,7 @@ private:
 
   void set_energy(SurfaceEnergy of_scene);
   void set_phases(const Scene& scene, std::span<const double> psi, Fourier& fourier);
+  void start_materials(const Scene& scene, const Start& start, Fourier& fourier);
   void set_lengths(const Scene& scene);
   double leave_sphere();
   void note_origin();
@@ -187,6 +190,7 @@ private:
   Constraints constraints_;
   std::optional<Phases> phases_;
   std::optional<StretchField> stretch_;
+  std::vector<CarriedField> materials_;
   LevelSet phi_;
   NarrowBand band_;
   Extension extension_;

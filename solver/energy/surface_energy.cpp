@@ -33,13 +33,14 @@ using Geodesic = Monomial<Term::geodesic, 0, 1>;
 /// The sum of everything is F = Lap_s g + (K_M^2 - 2 K) g + K_M Lap_s f_K - B : grad grad f_K +
 /// K_M K f_K + 2 f_X B(grad K_M, grad K_M) - K_M f, with partial derivatives f_M, f_K and f_X by
 /// X = |grad_s K_M|^2 of the density f, g = f_M - 2 div_s(f_X grad_s K_M) (docs/theory.md,
-/// which has a picture of the way to it).
+/// which has a picture of the way to it); and
+/// K_M m f_m for each field m whose amount is carried.
 Lanes variation_of(const Lanes& f, const Partials<AffineJet>& by, const Lanes& KM, const Lanes& K) {
   return by.by_KM.lap + (KM * KM - 2 * K) * by.by_KM.f + KM * (K * by.by_K.f - f);
 }
 Lanes variation_of(const Lanes& f, const Partials<Jet>& by, const Lanes& KM, const Lanes& K) {
   return by.by_KM.lap + (KM * KM - 2 * K) * by.by_KM.f + KM * by.by_K.lap - by.by_K.B_hess +
-         KM * (K * by.by_K.f - f);
+         KM * (K * by.by_K.f + by.by_amounts - f);
 }
 
 /// B v, with B = xx yy zz xy xz yz.
@@ -101,10 +102,11 @@ void load_curvatures(const SurfaceGeometry& surface, const Where& at, SurfacePoi
   p.K.B_hess = load(surface.B_hess_K(), at);
 }
 
-Jet load_jets(std::span<const SurfaceJet<double>> jets, std::size_t first, std::size_t count) {
+template <class Where>
+Jet load_jets(std::span<const SurfaceJet<double>> jets, const Where& at) {
   Jet out;
   for (std::size_t l = 0; l < lanes; l++) {
-    const SurfaceJet<double>& jet = jets[first + std::min(l, count - 1)];
+    const SurfaceJet<double>& jet = jets[at[l]];
     out.f[l] = jet.f;
     for (int d = 0; d < 3; d++) {
       out.grad[d][l] = jet.grad[d];
@@ -114,6 +116,45 @@ Jet load_jets(std::span<const SurfaceJet<double>> jets, std::size_t first, std::
     out.B_hess[l] = jet.B_hess;
   }
   return out;
+}
+
+template <class Where>
+void load(std::span<const SurfaceJet<double>> jets, const Where& at, Jet& field) {
+  field = load_jets(jets, at);
+}
+template <class Where>
+void load(std::span<const SurfaceJet<double>> jets, const Where& at, Lanes& field) {
+  for (std::size_t l = 0; l < lanes; l++) field[l] = jets[at[l]].f;
+}
+
+/// Material fields at eight samples.
+template <class N>
+class FieldsAt {
+public:
+  template <class Where>
+  FieldsAt(SurfaceEnergy::FieldJets jets, const Where& at) : count_(jets.size()) {
+    for (std::size_t i = 0; i < count_; i++) load(jets[i], at, fields_[i]);
+  }
+  operator std::span<const N>() const { return {fields_.data(), count_}; }
+
+private:
+  std::size_t count_;
+  std::array<N, most_fields> fields_;
+};
+/// Where one of them counts, nothing is affine.
+template <>
+class FieldsAt<AffineJet> {
+public:
+  template <class Where>
+  FieldsAt(SurfaceEnergy::FieldJets, const Where&) {}
+  operator std::span<const AffineJet>() const { return {}; }
+};
+
+/// The same values everywhere.
+std::vector<Univariate> fixed(std::span<const double> fields) {
+  std::vector<Univariate> all;
+  for (const double value : fields) all.push_back(constant<Univariate>(value));
+  return all;
 }
 
 /// A step, and its derivative by psi.
@@ -200,13 +241,14 @@ struct SurfaceEnergy::GradientSquare {
   }
 };
 
-SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& membrane, const Parameters& parameters)
-    : SurfaceEnergy(membrane, membrane, 0, StepProfiles::of_grid(1), parameters) {}
+SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& membrane, const Parameters& parameters,
+                             const MaterialFields& fields)
+    : SurfaceEnergy(membrane, membrane, 0, StepProfiles::of_grid(1), parameters, fields) {}
 
 /// With a line more there is one term more.
 SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo,
                              double geodesic_modulus, const StepProfiles& profiles,
-                             const Parameters& parameters)
+                             const Parameters& parameters, const MaterialFields& fields)
     : profiles_(profiles) {
   using M = SurfaceModuli;
   const auto both = [&](double M::*modulus, Profile profile) {
@@ -227,7 +269,7 @@ SurfaceEnergy::SurfaceEnergy(const SurfaceModuli& ld, const SurfaceModuli& lo,
   add_if<Gradient>(both(&M::gradient_modulus, Profile::monotonic));
   add_if<Geodesic>({geodesic_modulus, 0, Profile::moments});
   if (!ld.density.empty() || !lo.density.empty())
-    add(std::make_shared<TextDensity>(ld.density, lo.density, names_on_membrane(parameters)));
+    add(std::make_shared<TextDensity>(ld.density, lo.density, parameters, fields));
 }
 
 template <class Monomial>
@@ -266,13 +308,13 @@ bool SurfaceEnergy::is_affine() const {
 }
 
 void SurfaceEnergy::find_forces(const SurfaceGeometry& surface, std::span<const char> is_Ld,
-                                const Strip& strip, std::span<double> variation) {
+                                const Strip& strip, std::span<double> variation, FieldJets fields) {
   for (std::vector<double>& density : density_) density.resize(surface.size());
   if (is_affine())
-    find_bulk<AffineJet>(surface, is_Ld, variation);
+    find_bulk<AffineJet>(surface, is_Ld, fields, variation);
   else
-    find_bulk<Jet>(surface, is_Ld, variation);
-  find_strip(surface, strip, variation);
+    find_bulk<Jet>(surface, is_Ld, fields, variation);
+  find_strip(surface, strip, fields, variation);
 }
 
 /// `square`: null where no term is of the gradient of K_M.
@@ -300,7 +342,7 @@ void SurfaceEnergy::find_at(const SurfacePoint<N>& p, const GradientSquare* squa
 
 template <class N>
 void SurfaceEnergy::find_bulk(const SurfaceGeometry& surface, std::span<const char> is_Ld,
-                              std::span<double> variation) {
+                              FieldJets fields, std::span<double> variation) {
   const bool has_gradient = needs() == Derivatives::sixth;
   parallel_for(surface.size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; first += lanes) {
@@ -308,6 +350,8 @@ void SurfaceEnergy::find_bulk(const SurfaceGeometry& surface, std::span<const ch
       SurfacePoint<N> p;
       load_curvatures(surface, at, p);
       p.steps.accurate = p.steps.moments = p.steps.monotonic = step_apart<N>(is_Ld, at);
+      const FieldsAt<N> here(fields, at);
+      p.fields = here;
       std::optional<GradientSquare> square;
       if constexpr (std::is_same_v<N, Jet>)
         if (has_gradient) square.emplace(surface, p.KM, at);
@@ -316,7 +360,7 @@ void SurfaceEnergy::find_bulk(const SurfaceGeometry& surface, std::span<const ch
   });
 }
 
-void SurfaceEnergy::find_strip(const SurfaceGeometry& surface, const Strip& strip,
+void SurfaceEnergy::find_strip(const SurfaceGeometry& surface, const Strip& strip, FieldJets fields,
                                std::span<double> variation) {
   const bool has_gradient = needs() == Derivatives::sixth;
   parallel_for(strip.sample.size(), strip_per_task, [&](std::size_t begin, std::size_t end) {
@@ -324,7 +368,9 @@ void SurfaceEnergy::find_strip(const SurfaceGeometry& surface, const Strip& stri
       const Scattered at{&strip.sample[first], std::min(lanes, end - first)};
       SurfacePoint<Jet> p;
       load_curvatures(surface, at, p);
-      const Jet psi = load_jets(strip.psi, first, at.count);
+      const Jet psi = load_jets(strip.psi, Consecutive{first, at.count});
+      const FieldsAt<Jet> here(fields, at);
+      p.fields = here;
       const Dual<Jet> accurate = smeared(profiles_.accurate, psi),
                       moments = smeared(profiles_.moments, psi),
                       monotonic = smeared(profiles_.monotonic, psi);
@@ -345,7 +391,8 @@ void SurfaceEnergy::find_strip(const SurfaceGeometry& surface, const Strip& stri
 /// A wave changes K_M by -k^2 and K by -k^2 q, where q is the curvature across its direction, of
 /// all that there are at a sample: f_MM + 2 f_MK q + f_KK q^2; and its gradient by k^3.
 SurfaceEnergy::Stiffness SurfaceEnergy::stiffness(const SurfaceGeometry& surface,
-                                                  std::span<const char> is_Ld) const {
+                                                  std::span<const char> is_Ld,
+                                                  FieldJets fields) const {
   Stiffness all{1e300, -1e300};
   Coefficient gradient;
   for (const auto& term : terms_) {
@@ -357,7 +404,8 @@ SurfaceEnergy::Stiffness SurfaceEnergy::stiffness(const SurfaceGeometry& surface
   const std::size_t end = is_affine() ? std::min(lanes, surface.size()) : surface.size();
   for (std::size_t first = 0; first < end; first += lanes) {
     const Consecutive at{first, std::min(lanes, surface.size() - first)};
-    SurfacePoint<Lanes> p{load(surface.KM(), at), load(surface.K(), at), {}};
+    const FieldsAt<Lanes> here(fields, at);
+    SurfacePoint<Lanes> p{load(surface.KM(), at), load(surface.K(), at), {}, here};
     for (std::size_t l = 0; l < lanes; l++) {
       const bool in_Lo = is_affine() ? l % 2 : !is_Ld.empty() && !is_Ld[at[l]];
       p.steps.accurate[l] = p.steps.moments[l] = p.steps.monotonic[l] = in_Lo;
@@ -378,16 +426,20 @@ SurfaceEnergy::Stiffness SurfaceEnergy::stiffness(const SurfaceGeometry& surface
   return all;
 }
 
-double SurfaceEnergy::density(double KM, double K, double slope2) const {
-  const SurfacePoint<Univariate> p{constant<Univariate>(KM), constant<Univariate>(K), {}};
+double SurfaceEnergy::density(double KM, double K, double slope2,
+                              std::span<const double> fields) const {
+  const std::vector<Univariate> here = fixed(fields);
+  const SurfacePoint<Univariate> p{constant<Univariate>(KM), constant<Univariate>(K), {}, here};
   double sum = 0;
   for (const auto& term : terms_) sum += term->across(p).f + term->of_gradient().ld * slope2;
   return sum;
 }
 
-Univariate SurfaceEnergy::across(double psi, double KM, double K, double slope2) const {
+Univariate SurfaceEnergy::across(double psi, double KM, double K, double slope2,
+                                 std::span<const double> fields) const {
+  const std::vector<Univariate> here = fixed(fields);
   const SurfacePoint<Univariate> p{constant<Univariate>(KM), constant<Univariate>(K),
-                                   profiles_.at(psi)};
+                                   profiles_.at(psi), here};
   Univariate sum;
   for (const auto& term : terms_)
     if (term->differs_between_phases())

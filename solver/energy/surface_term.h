@@ -6,6 +6,7 @@
 #include "geometry/surface_geometry.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace lamella {
@@ -17,12 +18,16 @@ template <class N>
 struct SurfacePoint {
   N KM, K;
   Steps<N> steps;
+  std::span<const N> fields = {}; ///< material fields, in the order of the scene
 };
 
 /// Partial derivatives of a density, or of the sum of several.
 template <class N>
 struct Partials {
   N by_KM = constant<N>(0), by_K = constant<N>(0);
+  /// Sum of m df/dm over the material fields m whose amounts are carried: where the membrane
+  /// grows they fall.
+  Lanes by_amounts = Lanes{};
 };
 
 /// Second partial derivatives of a density: how stiff it is.

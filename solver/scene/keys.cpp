@@ -78,6 +78,8 @@ std::vector<Key> make_keys() {
        "what the run is called", "the file's name without `.toml`"},
       {"", "title", member<&Scene::title>(), "", any, {},
        "one line about the run, for people", "none"},
+      {"", "fields", member<&Scene::fields>(), "", any, {},
+       "material fields, each a `[[fields]]` of its own: see below", "none"},
 
       {"grid", "nodes", member<&Scene::nodes>(), "", {.low = 16, .high = 512, .multiple_of = 8}, {},
        "nodes along x, y, z, equally spaced; one number for a cube"},
@@ -276,6 +278,15 @@ std::string range_text(const Range& range) {
                      range.below_high ? "below" : "up to", range.high);
 }
 
+std::string fields_text(const MaterialFields& fields) {
+  std::vector<std::string> all;
+  for (const MaterialField& field : fields)
+    all.push_back(fmt::format("{{name = {}, start = {}, carried = \"{}\"}}",
+                              lamella::quoted(field.name), lamella::quoted(field.start),
+                              to_string(field.carried)));
+  return fmt::format("[{}]", fmt::join(all, ", "));
+}
+
 std::string integer_text(const Range& range) {
   const std::string multiple =
       range.multiple_of == 0 ? "" : fmt::format("multiple of {} ", range.multiple_of);
@@ -368,6 +379,7 @@ std::string value_text(const Key& key, Scene scene) {
               all.push_back(fmt::format("{} = {}", name, number));
             return fmt::format("{}", fmt::join(all, ", "));
           },
+          [&](Member<MaterialFields> fields) { return fields_text(fields(scene)); },
           [&](const Choice& choice) { return lamella::quoted(choice.names.at(choice.get(scene))); },
           [&](auto scalar) { return fmt::to_string(scalar(scene)); },
       },
@@ -392,6 +404,9 @@ std::string allowed_text(const Key& key) {
           [&](Member<std::vector<Vec3>>) {
             return fmt::format("a list of three numbers each, [[x, y, z], ...], {}",
                                range_text(key.range));
+          },
+          [&](Member<MaterialFields>) {
+            return std::string("a list of fields, each with its name, start and carried");
           },
           [&](const Choice& choice) {
             return fmt::format("\"{}\"", fmt::join(choice.names, "\", \""));

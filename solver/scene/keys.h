@@ -21,9 +21,10 @@ struct Choice {
   void (*set)(Scene&, int);
 };
 
-using Access = std::variant<Member<double>, Member<int>, Member<bool>, Member<std::string>,
-                            Member<Vec3>, Member<std::array<int, 3>>, Member<std::vector<double>>,
-                            Member<std::vector<Vec3>>, Member<Parameters>, Choice>;
+using Access =
+    std::variant<Member<double>, Member<int>, Member<bool>, Member<std::string>, Member<Vec3>,
+                 Member<std::array<int, 3>>, Member<std::vector<double>>, Member<std::vector<Vec3>>,
+                 Member<Parameters>, Member<MaterialFields>, Choice>;
 
 /// Allowed numbers, for vectors and lists each of them. What is not finite is never allowed.
 struct Range {

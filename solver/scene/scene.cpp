@@ -5,12 +5,17 @@
 
 namespace lamella {
 
+std::string_view to_string(Carried carried) {
+  return carried == Carried::value ? "value" : "amount";
+}
+
 Grid Scene::grid() const { return {nodes, 2 * half_width / *std::ranges::min_element(nodes)}; }
 
 std::vector<std::string> Scene::evolving_fields() const {
   std::vector<std::string> names;
   if (has_phases()) names.emplace_back("psi");
   if (stretch.modulus > 0) names.emplace_back("c");
+  for (const MaterialField& field : fields) names.push_back(field.name);
   return names;
 }
 

@@ -97,6 +97,26 @@ struct Line {
   bool operator==(const Line&) const = default;
 };
 
+/// How a field changes as the membrane that it is on moves: each point keeps its value, or its
+/// amount per area falls where the membrane grows.
+enum class Carried { value, amount };
+
+/// A scalar on the membrane that moves with it, for densities to depend on.
+struct MaterialField {
+  std::string name;
+  /// A formula of x, y and z, taken on the start shape; or the name of an array of the frame or
+  /// image that the scene starts from. Empty: the array of the field's own name.
+  std::string start;
+  Carried carried = Carried::value;
+
+  bool operator==(const MaterialField&) const = default;
+};
+using MaterialFields = std::vector<MaterialField>;
+inline constexpr std::size_t most_fields = 8;
+
+/// "value", "amount".
+std::string_view to_string(Carried carried);
+
 /// Named numbers of formulas.
 using Parameters = std::map<std::string, double>;
 
@@ -107,10 +127,6 @@ struct Stretch {
 
   bool operator==(const Stretch&) const = default;
 };
-
-/// How a field changes as the membrane that it is on moves: each point keeps its value, or its
-/// amount per area falls where the membrane grows.
-enum class Carried { value, amount };
 
 /// fixed: as it is at the start. ramped: led to given values. free: under a given multiplier.
 enum class Constraint { fixed, ramped, free };
@@ -208,7 +224,8 @@ struct Scene {
   Line line;            ///< with domains
   /// With domains: spontaneous curvatures are 0 until then.
   double curvature_start_time = 0;
-  Parameters parameters; ///< of the densities
+  Parameters parameters; ///< of the densities and of where fields start
+  MaterialFields fields; ///< of the densities
   Stretch stretch;
   VolumeConstraint volume;
   AreaConstraint area;
@@ -221,7 +238,8 @@ struct Scene {
 
   Grid grid() const;
   bool has_phases() const { return domains.kind != DomainsKind::none; }
-  /// The fields on the membrane that evolve with it: psi with phases, c where it resists stretch.
+  /// The fields on the membrane that evolve with it: psi with phases, c where it resists stretch,
+  /// and material fields.
   std::vector<std::string> evolving_fields() const;
   /// The largest bending modulus.
   double stiffest() const;

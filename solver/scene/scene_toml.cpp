@@ -103,6 +103,17 @@ public:
     if (!assign(member(scene_)[given_.name], *given_.value)) refuse("does not fit");
   }
 
+  void operator()(Member<MaterialFields> member) const {
+    const toml::array* list = given_.value->as_array();
+    if (!list) refuse("does not fit");
+    MaterialFields& fields = member(scene_);
+    fields.clear();
+    for (const toml::node& entry : *list) {
+      if (!entry.is_table()) refuse("does not fit");
+      fields.push_back(field_of(*entry.as_table(), fields.size() + 1));
+    }
+  }
+
   void operator()(const Choice& choice) const {
     const auto* text = given_.value->as_string();
     if (!text) refuse("does not fit");
@@ -113,6 +124,33 @@ public:
   }
 
 private:
+  MaterialField field_of(const toml::table& table, std::size_t number) const {
+    MaterialField field;
+    for (const auto& [key, value] : table) {
+      const auto refuse = [&, &key = key, &value = value](std::string_view allowed) {
+        refuse_scene(fmt::format("{}[[fields]] {} of field {}: {} does not fit; allowed: {}",
+                                 given_.place, shortened(key.str()), number, described(value),
+                                 allowed));
+      };
+      if (key == "name") {
+        if (!assign(field.name, value)) refuse("a text in quotes");
+      } else if (key == "start") {
+        if (!assign(field.start, value)) refuse("a text in quotes");
+      } else if (key == "carried") {
+        std::string carried;
+        if (!assign(carried, value) || (carried != "value" && carried != "amount"))
+          refuse("\"value\", \"amount\"");
+        field.carried = carried == "value" ? Carried::value : Carried::amount;
+      } else {
+        constexpr std::string_view names[]{"name", "start", "carried"};
+        refuse_scene(fmt::format("{}[[fields]] {}: unknown key; allowed: {}{}", given_.place,
+                                 shortened(key.str()), fmt::join(names, ", "),
+                                 suggestion(key.str(), names)));
+      }
+    }
+    return field;
+  }
+
   [[noreturn]] void refuse(std::string_view what, const std::string& hint = {}) const {
     const std::string label = given_.key->name.empty() ? fmt::format("[{}] {}", given_.key->section,
                                                                      shortened(given_.name))
@@ -225,6 +263,25 @@ Parameters parse_parameters(std::string_view text) {
     numbers[std::string(name.str())] = *value.value<double>();
   }
   return numbers;
+}
+
+MaterialFields parse_fields(std::string_view text) {
+  const std::string what = fmt::format("fields: \"{}\"", shortened(text));
+  const auto table =
+      std::make_shared<const toml::table>(parse_toml(fmt::format("fields = [{}]", text), what));
+  if (table->size() > 1)
+    refuse_scene(what + ": no fields; allowed: such as {name = \"m\", start = \"z\"}");
+  const Given given{find_key("", "fields"), "fields", {table, table->get("fields")}, "", false};
+  Scene scene;
+  Assignment(scene, given);
+  return scene.fields;
+}
+
+std::string text_of(const MaterialFields& fields) {
+  Scene scene;
+  scene.fields = fields;
+  const std::string list = value_text(*find_key("", "fields"), scene); // in brackets
+  return list.substr(1, list.size() - 2);
 }
 
 std::string to_toml(const Scene& scene) {

@@ -28,6 +28,12 @@ std::string to_toml(const Scene& scene);
 /// Parameters in one line, such as "a = 3, b = -2". Throws SceneError.
 Parameters parse_parameters(std::string_view text);
 
+/// Material fields from a text such as {name = "m", start = "z", carried = "value"}, several with
+/// commas between them. Throws SceneError for what is none.
+MaterialFields parse_fields(std::string_view text);
+/// And such a text.
+std::string text_of(const MaterialFields& fields);
+
 /// All sections and keys as Markdown tables (the reference part of docs/scene-format.md).
 std::string describe_keys();
 

@@ -1,6 +1,7 @@
 #include "scene/units.h"
 
 #include "expression/formula_text.h"
+#include "scene/densities.h"
 #include "scene/keys.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,10 @@ namespace lamella {
 
 namespace {
 
-constexpr std::string_view curvatures[]{"KM", "K", "kg", "kn", "tau_g"}; ///< that densities are of
+/// What formulas are of, and its unit.
+constexpr std::pair<std::string_view, std::string_view> variables[]{
+    {"KM", "1/length"},    {"K", "1/length²"}, {"kg", "1/length"}, {"kn", "1/length"},
+    {"tau_g", "1/length"}, {"x", "length"},    {"y", "length"},    {"z", "length"}};
 
 Dimension of_word(std::string_view word) {
   return {word == "length", word == "energy", word == "time"};
@@ -40,16 +44,17 @@ Dimension of_product(std::string_view product) {
   return sum;
 }
 
-/// A density with a factor, of curvatures in other units.
-std::string density_in_units(std::string_view text, const UnitChange& change, double factor) {
-  if (text.empty()) return "";
+/// A formula with the same values, of curvatures and places in other units.
+std::string formula_in_units(std::string_view text, const UnitChange& change) {
   std::string changed;
   for (const Token& token : FormulaText(text).tokens()) {
-    const bool is_variable = std::ranges::count(curvatures, token.text) > 0;
-    const double by = change.factor(token.text == "K" ? "length²" : "length");
-    changed += is_variable ? fmt::format("({}*{})", by, token.text) : fmt::format("{}", token.text);
+    const auto variable = std::ranges::find_if(
+        variables, [&](const auto& known) { return known.first == token.text; });
+    changed += variable == std::end(variables)
+                   ? std::string(token.text)
+                   : fmt::format("({}*{})", 1 / change.factor(variable->second), token.text);
   }
-  return fmt::format("{}*({})", factor, changed);
+  return changed;
 }
 
 } // namespace
@@ -74,10 +79,13 @@ Scene in_units(Scene scene, const UnitChange& change) {
     if (const auto* vector = std::get_if<Member<Vec3>>(&key.access))
       for (double& x : (*vector)(scene)) x *= factor;
     if (const auto* text = std::get_if<Member<std::string>>(&key.access))
-      (*text)(scene) = density_in_units((*text)(scene), change, factor);
+      if (std::string& formula = (*text)(scene); !formula.empty())
+        formula = fmt::format("{}*({})", factor, formula_in_units(formula, change));
     if (const auto* list = std::get_if<Member<std::vector<double>>>(&key.access))
       for (double& x : (*list)(scene)) x *= factor;
   }
+  for (MaterialField& field : scene.fields)
+    if (!array_of(field, scene.parameters)) field.start = formula_in_units(field.start, change);
   return scene;
 }
 

@@ -62,6 +62,7 @@ public:
     } else {
       quartic_moduli("membrane", scene_.membrane);
     }
+    fields();
     densities();
     pressure();
     if (scene_.shape.kind == ShapeKind::sphere) sphere_can_leave();
@@ -506,24 +507,59 @@ private:
   /// Every density is a formula, and every parameter is part of one.
   void densities() const {
     for (const auto& [name, value] : scene_.parameters)
-      if (!is_parameter_name(name))
+      if (!is_name_to_give(name))
         refuse({path_of(name)},
                "cannot name a number; allowed: letters, digits and _, a letter first, but nothing "
                "that formulas have a meaning for");
     std::set<std::string> used;
-    for (const Density& density : densities_of(scene_)) {
-      try {
-        used.merge(read_formula(density.text, density.names).names);
-      } catch (const FormulaError& e) {
-        refuse({density.key}, e.what());
+    for (const auto& formulas : {densities_of(scene_), starts_of(scene_)})
+      for (const SceneFormula& formula : formulas) {
+        try {
+          used.merge(read_formula(formula.text, formula.names).names);
+        } catch (const FormulaError& e) {
+          refuse({formula.key}, e.what());
+        }
       }
-    }
     for (const auto& [name, value] : scene_.parameters)
       if (!used.contains(name))
         refuse(
             {path_of(name)},
             "no density speaks of it; allowed: numbers that density in [membrane], [ld], [lo] or "
-            "[line] speaks of");
+            "[line] speaks of, or where a field starts");
+    for (const MaterialField& field : scene_.fields)
+      if (!used.contains(field.name))
+        refuse({"fields"}, fmt::format("no density speaks of {}; allowed: fields that density in "
+                                       "[membrane], [ld] or [lo] speaks of",
+                                       field.name));
+  }
+
+  /// Material fields have names of their own, and something to start from.
+  void fields() const {
+    constexpr std::string_view taken[]{
+        "phi", "psi", "c", "K_M", "Normals", "v", "phase", "energy_density", "velocity"};
+    if (scene_.fields.size() > most_fields)
+      refuse({"fields"},
+             fmt::format("there are {}; allowed: at most {}", scene_.fields.size(), most_fields));
+    std::set<std::string_view> names;
+    for (const MaterialField& field : scene_.fields) {
+      if (!is_name_to_give(field.name) || std::ranges::count(taken, field.name) > 0)
+        refuse({"fields"},
+               fmt::format("\"{}\" cannot name a field; allowed: letters, digits and _, a letter "
+                           "first, but nothing that formulas or results have a meaning for",
+                           field.name));
+      if (scene_.parameters.contains(field.name) || !names.insert(field.name).second)
+        refuse({"fields"},
+               fmt::format("the name {} is given twice; allowed: each name once", field.name));
+      if (array_of(field, scene_.parameters) && scene_.shape.kind != ShapeKind::frame)
+        refuse({"fields", "shape.kind"},
+               fmt::format("{} starts from an array \"{}\", and there is no frame; allowed: a "
+                           "formula of x, y and z such as start = \"1 + 0.1*z\"",
+                           field.name, *array_of(field, scene_.parameters)));
+    }
+    if (!scene_.fields.empty() && scene_.stretch.modulus > 0)
+      refuse({"fields", "stretch.modulus"},
+             "where lipid flows along the membrane, fields would have to flow with it, which is "
+             "not available in this release; allowed: [stretch] modulus = 0, or no fields");
   }
 
   void spontaneous_curvature(double c, const Keys& keys) const {

@@ -529,8 +529,8 @@ TEST_F(Render, colours_in_the_unit_of_the_bar) {
   for (const Quantity quantity : {Quantity::K_M, Quantity::energy_density, Quantity::velocity}) {
     const ValueRange a = range_of(quantity, {extract_surface(soft, quantity)});
     const ValueRange b = range_of(quantity, {extract_surface(stiff, quantity)});
-    EXPECT_NEAR(b.high, a.high, 1e-9 * std::abs(a.high)) << to_string(quantity);
-    EXPECT_NEAR(b.low, a.low, 1e-9 * std::abs(a.low)) << to_string(quantity);
+    EXPECT_NEAR(b.high, a.high, 1e-9 * std::abs(a.high)) << quantity.name;
+    EXPECT_NEAR(b.low, a.low, 1e-9 * std::abs(a.low)) << quantity.name;
   }
 }
 

@@ -55,7 +55,7 @@ std::string refusal(std::string text, const std::string& part = "", const std::s
   return "accepted";
 }
 
-double value(const Density& density, const std::vector<double>& variables) {
+double value(const SceneFormula& density, const std::vector<double>& variables) {
   std::vector<double> results(1), registers;
   read_formula(density.text, density.names).tape.evaluate<double>(variables, results, registers);
   return results.front();
@@ -65,13 +65,14 @@ TEST(Densities, AreReadWithTheirParameters) {
   const Scene scene = scene_of(one_phase);
   EXPECT_EQ(scene.membrane.density, "0.002*KM^2*K + a*(KM - C0)^2");
   EXPECT_THAT(scene.parameters, ElementsAre(Pair("C0", -2.5), Pair("a", 3)));
-  const std::vector<Density> densities = densities_of(scene);
+  const std::vector<SceneFormula> densities = densities_of(scene);
   ASSERT_EQ(densities.size(), 1);
   EXPECT_EQ(densities[0].key, "membrane.density");
   EXPECT_DOUBLE_EQ(value(densities[0], {-2, 1}), 0.008 + 3 * 0.25);
 
   std::vector<std::string_view> keys;
-  for (const Density& density : densities_of(scene_of(two_phases))) keys.push_back(density.key);
+  for (const SceneFormula& density : densities_of(scene_of(two_phases)))
+    keys.push_back(density.key);
   EXPECT_THAT(keys, ElementsAre("ld.density", "lo.density", "line.density"));
   EXPECT_TRUE(densities_of(Scene{}).empty());
 }
@@ -93,9 +94,9 @@ TEST(Densities, ParametersCanBeSetOnTheCommandLine) {
       one_phase, {"parameters.a=4", "parameters.b = 0.5", "membrane.density=a*KM^4 + C0*b"});
   EXPECT_EQ(scene.membrane.density, "a*KM^4 + C0*b");
   EXPECT_THAT(scene.parameters, ElementsAre(Pair("C0", -2.5), Pair("a", 4), Pair("b", 0.5)));
-  EXPECT_EQ(refusal(one_phase, "", "", {"parameters.z=1"}),
-            "--set parameters.z=1: [parameters] z: no density speaks of it; allowed: numbers that "
-            "density in [membrane], [ld], [lo] or [line] speaks of");
+  EXPECT_EQ(refusal(one_phase, "", "", {"parameters.w=1"}),
+            "--set parameters.w=1: [parameters] w: no density speaks of it; allowed: numbers that "
+            "density in [membrane], [ld], [lo] or [line] speaks of, or where a field starts");
 }
 
 TEST(Densities, MistakesAreToldWithTheirPlaces) {
@@ -137,10 +138,73 @@ TEST(Densities, ParametersAreNumbersOfFreeNames) {
   EXPECT_THAT(refusal("parameters = 3"), HasSubstr("my.toml:1: parameters: this is a section"));
 }
 
+constexpr const char* with_fields = R"([grid]
+nodes = 32
+[membrane]
+density = "a*s + m^2"
+[parameters]
+a = 3
+[[fields]]
+name = "s"
+start = "a + x"
+[[fields]]
+name = "m"
+start = "z"
+carried = "amount"
+)";
+
+TEST(MaterialFields, AreTablesOfTheirOwn) {
+  const Scene scene = scene_of(with_fields);
+  const MaterialFields expected{{"s", "a + x", Carried::value}, {"m", "z", Carried::amount}};
+  EXPECT_EQ(scene.fields, expected);
+  EXPECT_EQ(scene_of(to_toml(scene)).fields, expected);
+  EXPECT_EQ(parse_fields(text_of(scene.fields)), expected);
+  EXPECT_TRUE(parse_fields("").empty());
+  const std::string overrides[]{R"(fields=[{name = "s", start = "y"}])", "membrane.density=a*s"};
+  EXPECT_EQ(parse_scene(with_fields, "my.toml", overrides).fields,
+            (MaterialFields{{"s", "y", Carried::value}}));
+}
+
+TEST(MaterialFields, ThatCannotBeAreRefused) {
+  const auto refused = [](const char* what, const char* by) {
+    return refusal(with_fields, what, by);
+  };
+  EXPECT_EQ(refused("carried = \"amount\"", "carried = \"both\""),
+            "my.toml:7: [[fields]] carried of field 2: the text \"both\" does not fit; allowed: "
+            "\"value\", \"amount\"");
+  EXPECT_EQ(refused("carried", "caried"), "my.toml:7: [[fields]] caried: unknown key; allowed: "
+                                          "name, start, carried; did you mean \"carried\"?");
+  EXPECT_THAT(refused("name = \"m\"", "name = 3"),
+              HasSubstr("[[fields]] name of field 2: the integer 3 does not fit; allowed: a text"));
+  EXPECT_THAT(refused("name = \"m\"", "name = \"s\""), HasSubstr("the name s is given twice"));
+  for (const char* name : {"KM", "x", "kg", "psi", "c", "phi", "K_M", "sin", "a b", ""})
+    EXPECT_THAT(refused("name = \"m\"", fmt::format("name = \"{}\"", name).c_str()),
+                HasSubstr("cannot name a field; allowed: letters, digits and _"))
+        << name;
+  EXPECT_THAT(refused("name = \"m\"", "name = \"a\""), HasSubstr("the name a is given twice"));
+  EXPECT_THAT(refused("a*s + m^2", "a*s"), HasSubstr("no density speaks of m; allowed: fields"));
+  EXPECT_THAT(
+      refused("start = \"z\"", "start = \"zz\""),
+      HasSubstr("m starts from an array \"zz\", and there is no frame; allowed: a formula"));
+  EXPECT_THAT(refused("start = \"z\"", "start = \"z +\""), HasSubstr("my.toml:7: fields: "));
+  EXPECT_THAT(refused("[grid]", "[stretch]\nmodulus = 3\n[grid]"),
+              HasSubstr("where lipid flows along the membrane"));
+  EXPECT_THAT(refusal("fields = 3"), HasSubstr("my.toml:1: fields: the integer 3 does not fit"));
+  EXPECT_THAT(refusal("fields = [3]"), HasSubstr("my.toml:1: fields: a list of 1 does not fit"));
+  EXPECT_THAT(refusal("[line]\ndensity = \"kg\"\n[fields]\nname = \"s\""), HasSubstr("my.toml:3"));
+}
+
+TEST(MaterialFields, AreTheSameInOtherUnits) {
+  const Scene other = in_units(scene_of(with_fields), {.length = 2, .energy = 3});
+  ASSERT_EQ(other.fields.size(), 2u);
+  const SceneFormula start = starts_of(other)[0], before = starts_of(scene_of(with_fields))[0];
+  EXPECT_DOUBLE_EQ(value(start, {0.6, 0, 0}), value(before, {0.3, 0, 0}));
+}
+
 TEST(Densities, AreTheSameInOtherUnits) {
   const UnitChange change{.length = 2, .energy = 3};
-  const Density before = densities_of(scene_of(one_phase))[0],
-                after = densities_of(in_units(scene_of(one_phase), change))[0];
+  const SceneFormula before = densities_of(scene_of(one_phase))[0],
+                     after = densities_of(in_units(scene_of(one_phase), change))[0];
   EXPECT_DOUBLE_EQ(value(after, {-1.5 / 2, 0.7 / 4}), value(before, {-1.5, 0.7}) * 3 / 4);
   EXPECT_NO_THROW(scene_of(to_toml(in_units(scene_of(one_phase), change))));
 }

@@ -133,6 +133,16 @@ std::vector<Kind> kinds() {
     s.area_difference.ramp = {{1.3}, {0}, 20};
   });
   add("stretch", one_phase(1.5e-4), [](Scene& s) { s.stretch.modulus = 50; });
+  add("material fields", one_phase(1.5e-4), [](Scene& s) {
+    s.membrane.density = "0.3*k*(KM + 2)^2 + 40*m^2 - 20*k*m";
+    s.fields = {{"k", "1 + x + y", Carried::value}, {"m", "1 + 0.5*z", Carried::amount}};
+  });
+  add("material fields of two phases", two_phases(1.5e-4), [](Scene& s) {
+    s.line.tension = 20;
+    s.ld.density = "0.3*k*KM^2 + 20*m^2";
+    s.lo.density = "20*m^2";
+    s.fields = {{"k", "1 + x + y", Carried::value}, {"m", "1 + 0.5*z", Carried::amount}};
+  });
   add("line tension", two_phases(1.5e-4), [](Scene& s) { s.line.tension = 20; });
   add("line tension, little drag", two_phases(1.5e-4), [](Scene& s) {
     s.line.tension = 20;

@@ -116,6 +116,13 @@ TEST(Restart, IsExactWithDomainsThatAreHeld) {
   EXPECT_EQ(restarts_that_agree(scene, 16, at_steps({1, 4, 9})), 3);
 }
 
+TEST(Restart, IsExactWithMaterialFields) {
+  Scene scene = scene_of(ellipsoid({0.65, 0.5, 0.3}), 32, 2e-4);
+  scene.membrane.density = "0.3*k*KM^2 + 40*m^2";
+  scene.fields = {{"k", "1 + x", Carried::value}, {"m", "1 + 0.5*z", Carried::amount}};
+  EXPECT_EQ(restarts_that_agree(scene, 20, at_steps({1, 6, 11})), 3);
+}
+
 TEST(Restart, IsExactWithFilms) {
   Scene scene = scene_of(ellipsoid({0.65, 0.5, 0.3}), 32, 2e-4);
   scene.contact.disjoining_pressure = 3000; // its range by default

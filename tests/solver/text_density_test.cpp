@@ -15,7 +15,7 @@
 namespace lamella {
 namespace {
 
-const FormulaNames names = names_on_membrane({{"a", 0.4}, {"C0", -1.7}});
+const Parameters names{{"a", 0.4}, {"C0", -1.7}};
 
 /// Places with random curvatures and derivatives, all with the same curvature tensor.
 class Places {

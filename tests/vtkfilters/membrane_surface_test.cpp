@@ -256,6 +256,11 @@ TEST(MembraneSurface, MovesAsAllForcesSay) {
   scene.membrane.gradient_modulus = 1e-3;
   EXPECT_LT(error_of_velocity(scene), 0.01) << "higher powers of curvature";
   scene.membrane = {};
+  scene.membrane.density = "0.4*k*(KM + 2)^2 + 30*m^2";
+  scene.fields = {{"k", "1 + x", Carried::value}, {"m", "1 + 0.5*z", Carried::amount}};
+  EXPECT_LT(error_of_velocity(scene), 0.01) << "material fields";
+  scene.membrane = {};
+  scene.fields = {};
   scene.contact.disjoining_pressure = 3e4;
   scene.contact.disjoining_range = 0.05;
   EXPECT_LT(error_of_velocity(scene), 0.01) << "films";

@@ -47,7 +47,7 @@ void for_each_parameter(Scene& scene, Action&& action) {
   }
 }
 
-constexpr const char* named_numbers = "parameters";
+constexpr const char *named_numbers = "parameters", *material_fields_key = "fields";
 
 std::string field_text(vtkDataObject& data, const std::string& name) {
   auto* array = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray(name.c_str()));
@@ -87,6 +87,7 @@ void set_forces(vtkDataObject& data, const Scene& scene) {
                                     if (acts) set_field_text(data, path, text);
                                   });
   set_field_text(data, named_numbers, value_text(*find_key(named_numbers, ""), scene));
+  set_field_text(data, material_fields_key, text_of(scene.fields));
 }
 
 Scene forces_of(vtkDataObject& data, const Frame& frame, const SurfaceModuli& otherwise) {
@@ -99,6 +100,7 @@ Scene forces_of(vtkDataObject& data, const Frame& frame, const SurfaceModuli& ot
     text = field_text(data, path);
   });
   scene.parameters = parse_parameters(field_text(data, named_numbers));
+  scene.fields = parse_fields(field_text(data, material_fields_key));
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include "energy/smeared_step.h"
 #include "energy/surface_energy.h"
 #include "fields/image.h"
+#include "fields/material_fields.h"
 #include "fields/spline_geometry.h"
 #include "geometry/laplacian_field.h"
 #include "geometry/phase_boundary.h"
@@ -122,11 +123,13 @@ std::vector<Size> sizes_of(const Frame& frame, const std::vector<int>& nearest, 
 }
 
 ShapeMeasures measure(const Frame& frame, const Scene& forces) {
-  SurfaceEnergy energy(forces.membrane, forces.parameters);
+  SurfaceEnergy energy(forces.membrane, forces.parameters, forces.fields);
   const Sampled membrane(frame, energy.needs());
   const SurfaceGeometry& surface = membrane.surface;
   std::vector<double> variation(surface.size());
-  energy.find_forces(surface, {}, {}, variation);
+  Fourier fourier(frame.grid);
+  const std::vector<CarriedField> fields = material_fields(forces, frame, surface, fourier);
+  energy.find_forces(surface, {}, {}, variation, jets_of(fields));
   const SurfaceIntegrals integrals = integrate(surface, variation);
   if (!(integrals.area() > 0))
     throw InputError("the membrane is too small for the grid to be measured");

@@ -44,8 +44,20 @@ bool set_parameters(PropertyScene& scene, std::string_view text) {
   return true;
 }
 
+bool set_fields(PropertyScene& scene, std::string_view text) {
+  if (text == scene.fields_text) return false;
+  scene.fields_text = text;
+  try {
+    scene.fields = parse_fields(text);
+  } catch (const SceneError&) { // refused where they are used
+    scene.fields.clear();
+  }
+  return true;
+}
+
 void check_choices(const PropertyScene& scene) {
   parse_parameters(scene.parameters_text);
+  parse_fields(scene.fields_text);
   for (const auto& [key, value] : scene.unknown)
     throw InputError(fmt::format("{}: \"{}\" is not available; allowed: {}{}", key->label(), value,
                                  allowed_text(*key),

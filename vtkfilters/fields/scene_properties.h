@@ -14,17 +14,19 @@ namespace lamella {
 /// be out of its range; that is refused where the scene is used.
 struct PropertyScene : Scene {
   std::map<const Key*, std::string> unknown; ///< such names
-  std::string parameters_text;               ///< as the parameters were set
+  std::string parameters_text, fields_text;  ///< as they were set
 };
 
 /// The value by name of a parameter that has a choice, such as kind in [shape].
 const char* choice_of(const PropertyScene& scene, std::string_view section, std::string_view key);
 /// Whether that changed anything.
 bool set_choice(PropertyScene& scene, const Key& key, std::string_view value);
-/// Parameters as "a = 3, b = -2"; whether that changed anything.
+/// Parameters as "a = 3, b = -2", fields as "{name = "m", start = "z"}"; whether that changed
+/// anything.
 bool set_parameters(PropertyScene& scene, std::string_view text);
+bool set_fields(PropertyScene& scene, std::string_view text);
 /// Throws InputError for a name that there is not, with those there are, and SceneError for
-/// parameters that are no numbers.
+/// parameters that are no numbers and fields that are none.
 void check_choices(const PropertyScene& scene);
 
 /// The parameters of some sections that count, a line each.

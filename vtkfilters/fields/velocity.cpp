@@ -3,6 +3,7 @@
 #include "dynamics/phases.h"
 #include "energy/film.h"
 #include "energy/surface_energy.h"
+#include "fields/material_fields.h"
 #include "geometry/laplacian_field.h"
 #include "levelset/extension.h"
 #include "levelset/level_set.h"
@@ -19,11 +20,15 @@ constexpr int sweeps = 60;              // of the spline through the speed: almo
 
 /// The variation F (a normal displacement u changes the energy by int F u dA) as it is well off the
 /// phase boundary, where q is the share of Ld.
-std::vector<double> bulk_variation(const Scene& scene, const SurfaceGeometry& surface,
+std::vector<double> bulk_variation(const Scene& scene, const Frame& frame,
+                                   const SurfaceGeometry& surface,
                                    std::span<const double> share_Ld) {
+  Fourier fourier(frame.grid);
+  const std::vector<CarriedField> carried = material_fields(scene, frame, surface, fourier);
+  const auto fields = jets_of(carried);
   const auto of = [&](const SurfaceModuli& moduli) {
     std::vector<double> F(surface.size());
-    SurfaceEnergy(moduli, scene.parameters).find_forces(surface, {}, {}, F);
+    SurfaceEnergy(moduli, scene.parameters, scene.fields).find_forces(surface, {}, {}, F, fields);
     return F;
   };
   if (!scene.has_phases()) return of(scene.membrane);
@@ -36,7 +41,7 @@ std::vector<double> bulk_variation(const Scene& scene, const SurfaceGeometry& su
 
 Derivatives derivatives_for(const Scene& scene) {
   const auto needs = [&](const SurfaceModuli& moduli) {
-    return SurfaceEnergy(moduli, scene.parameters).needs();
+    return SurfaceEnergy(moduli, scene.parameters, scene.fields).needs();
   };
   if (!scene.has_phases()) return needs(scene.membrane);
   return std::max({Derivatives::gradient, needs(scene.ld), needs(scene.lo)});
@@ -63,9 +68,10 @@ Forces forces_on(const Frame& frame, const LevelSet& phi, const NarrowBand& band
     phases.locate(phi, band, together);
     phases.sample(band, surface, together);
     SurfaceEnergy energy = phases.surface_energy(frame.time);
-    phases.find_forces(phi, surface, energy, f.other);
+    const std::vector<CarriedField> fields = material_fields(scene, frame, surface, fourier);
+    phases.find_forces(phi, surface, energy, f.other, fields);
     f.share_Ld.assign(phases.share().begin(), phases.share().end());
-    const std::vector<double> bulk = bulk_variation(scene, surface, f.share_Ld);
+    const std::vector<double> bulk = bulk_variation(scene, frame, surface, f.share_Ld);
     for (std::size_t i = 0; i < surface.size(); ++i) f.other[i] -= bulk[i];
   }
   if (scene.stretch.modulus > 0) {
@@ -165,7 +171,7 @@ std::vector<double> normal_velocity(const Frame& frame, const LevelSet& phi, con
   SurfaceGeometry surface;
   surface.jets_at(phi, places, derivatives_for(scene));
   if (membrane && membrane->lap_KM) surface.differentiate(*membrane->lap_KM);
-  const std::vector<double> bulk = bulk_variation(scene, surface, share_Ld);
+  const std::vector<double> bulk = bulk_variation(scene, frame, surface, share_Ld);
   std::vector<double> v(other.size());
   for (std::size_t i = 0; i < v.size(); ++i) {
     const double sigma =
