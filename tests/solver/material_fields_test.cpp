@@ -155,7 +155,7 @@ TEST(MaterialFields, KeepTheirValuesAndAmountsOnEveryPart) {
   for (const auto g : {+[](double) { return 1.; }, +[](double s) { return s; },
                        +[](double s) { return std::exp(3 * s); }}) {
     const double coarse = lost(g, 2e-5), fine = lost(g, 5e-6);
-    EXPECT_LT(fine, 2e-5);       // measured 2e-7, 2e-6, 6e-6
+    EXPECT_LT(fine, 2e-5);         // measured 2e-7, 2e-6, 6e-6
     EXPECT_LT(fine, 0.5 * coarse); // 0.26, 0.16, 0.05
   }
 }
@@ -181,7 +181,7 @@ double error_of_start(int nodes) {
 
 TEST(MaterialFields, StartOnTheStartShape) {
   const double coarse = error_of_start(32), fine = error_of_start(64);
-  EXPECT_LT(fine, 1.5e-4);         // measured 7e-5
+  EXPECT_LT(fine, 1.5e-4);        // measured 7e-5
   EXPECT_LT(fine, 0.25 * coarse); // 0.12
 }
 
