@@ -19,6 +19,7 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace lamella::render {
@@ -110,8 +111,14 @@ void project_velocity(vtkPolyData& mesh) {
 
 } // namespace
 
+/// "K_m" is K_M mistyped; k may be a field.
 bool is_quantity(std::string_view name) {
-  return std::ranges::count(quantity_names, name) > 0 || is_name_to_give(name);
+  const auto lower = [](unsigned char c) { return std::tolower(c); };
+  const auto is_mistyped = [&](std::string_view known) {
+    return name.size() > 1 && std::ranges::equal(name, known, {}, lower, lower);
+  };
+  return std::ranges::count(quantity_names, name) > 0 ||
+         (is_name_to_give(name) && std::ranges::none_of(quantity_names, is_mistyped));
 }
 
 Surface extract_surface(const Frame& frame) {

@@ -21,7 +21,12 @@ using lamella::Member;
 const lamella::Key* FindKey(std::string_view path)
 {
   const auto dot = path.find('.');
-  return lamella::find_key(path.substr(0, dot), dot == path.npos ? "" : path.substr(dot + 1));
+  if (dot != path.npos)
+  {
+    return lamella::find_key(path.substr(0, dot), path.substr(dot + 1));
+  }
+  const lamella::Key* ofSection = lamella::find_key(path, ""); // that takes any name
+  return ofSection ? ofSection : lamella::find_key("", path);
 }
 
 bool SetMember(lamella::Scene& scene, const lamella::Access& access, double value)
