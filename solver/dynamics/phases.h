@@ -125,7 +125,7 @@ private:
   /// A sample in the strip along the boundary.
   struct StripPoint {
     int sample = 0;
-    Taylor psi{};
+    Taylor psi{0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
     double slope2 = 0; ///< |grad_s psi|^2
     double lap = 0;    ///< Lap_s psi
     BoundaryFeet::Foot foot;
