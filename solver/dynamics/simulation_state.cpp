@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <ranges>
 
 // Interrupting a simulation and going on.
 namespace lamella {
@@ -95,8 +94,8 @@ Simulation::Simulation(const Scene& scene, const SimulationState& s, const Surfa
       renormalised_(s.renormalised), next_parting_(s.next_parting), next_search_(s.next_search),
       failures_(s.failures), failed_before_(s.failed_before), driven_(s.driven), cells_(s.cells),
       topology_(s.topology), domains_(s.domains), measures_(s.measures), events_(s.events) {
-  if (!std::ranges::equal(std::views::keys(vesicle_.energies().others()),
-                          std::views::keys(measures_.terms.others())))
+  const auto name = [](const auto& term) { return term.first; };
+  if (!std::ranges::equal(vesicle_.energies().others(), measures_.terms.others(), {}, name, name))
     refuse("the terms of the energy that are not built in");
   restore(stepper_, s.stepper);
   for (EvolvingField* field : vesicle_.fields())
