@@ -178,7 +178,8 @@ void Simulation::step_stretch(double dt) {
   EvolvingField& c = stretch.c().evolving();
   c.stepper().predict(vesicle_.extension(), dt, {0, stretch.law().diffusivity()});
   c.stepper().apply(c.spline(), {}, 0);
-  // Lipid flows, and what is short would come to nothing anyway.
+  // Smoothed: without, the least c of two domains at mu = 1000 falls to .945, not .977. It is not
+  // known why.
   stretch.c().extend(vesicle_.band(), surface, vesicle_.extension(), true);
 }
 
