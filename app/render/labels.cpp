@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -25,6 +27,43 @@ double round_step(double most) {
   for (double m : {5.0, 2.5, 2.0})
     if (m * power <= most * (1 + 1e-9)) return m * power;
   return power;
+}
+
+/// Digits behind the point, so that nothing is rounded.
+int decimals_of(double value) {
+  int decimals = 0;
+  for (; std::abs(value - std::round(value)) > 1e-6; value *= 10) ++decimals;
+  return decimals;
+}
+
+long count_labels(const std::vector<std::string>& labels) {
+  return std::ranges::count_if(labels, [](const std::string& label) { return !label.empty(); });
+}
+
+/// Whether no label reaches into the next; `places` are those of the ticks, in parts of the axis.
+bool stay_apart(const std::vector<std::string>& labels, const std::vector<double>& places,
+                const LabelRoom& room) {
+  double taken = -std::numeric_limits<double>::infinity(); // as far as here
+  for (std::size_t n = 0; n < labels.size(); ++n) {
+    if (labels[n].empty()) continue;
+    const double middle = places[n] * room.axis, half = room.label(labels[n]) / 2;
+    if (middle - half < taken) return false;
+    taken = middle + half;
+  }
+  return true;
+}
+
+/// Labels of the chosen values, all with the same number of digits; those of others are empty.
+std::vector<std::string> written(const std::vector<double>& values,
+                                 const std::function<bool(std::size_t)>& chosen) {
+  int decimals = 0;
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (chosen(n)) decimals = std::max(decimals, decimals_of(values[n]));
+  std::vector<std::string> labels(values.size());
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (chosen(n))
+      labels[n] = values[n] == 0 ? "0" : with_minus(fmt::format("{:.{}f}", values[n], decimals));
+  return labels;
 }
 
 } // namespace
@@ -90,36 +129,69 @@ std::string plain(const std::string& text) {
   return out;
 }
 
-Ticks linear_ticks(double low, double high) {
+Ticks linear_ticks(double low, double high, const LabelRoom& room) {
   const double step = round_step((high - low) / 3);
+  const double first = std::ceil(low / step - 1e-6);
+  const std::size_t count = std::size_t(std::floor(high / step + 1e-6) - first) + 1;
   Ticks ticks;
   ticks.exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
-  const double unit = std::pow(10, ticks.exponent);
-  int decimals = 0;
-  for (double s = step / unit; std::abs(s - std::round(s)) > 1e-6; s *= 10) ++decimals;
-  for (double n = std::ceil(low / step - 1e-6); n * step <= high + 1e-6 * step; ++n) {
-    ticks.positions.push_back(n * step);
-    ticks.labels.push_back(n == 0 ? "0"
-                                  : with_minus(fmt::format("{:.{}f}", n * step / unit, decimals)));
+  std::vector<double> places, values;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double position = (first + double(n)) * step;
+    ticks.positions.push_back(position);
+    places.push_back((position - low) / (high - low));
+    values.push_back(position / std::pow(10, ticks.exponent));
+  }
+  for (std::size_t every = 1; every <= count; ++every) {
+    // Multiples of the larger step, where there are two of them.
+    const auto multiple = std::size_t(std::ceil(first / double(every)) * double(every) - first);
+    const std::size_t from = multiple + every < count ? multiple : 0;
+    ticks.labels =
+        written(values, [=](std::size_t n) { return n >= from && (n - from) % every == 0; });
+    if (stay_apart(ticks.labels, places, room)) break; // a label alone does
   }
   return ticks;
 }
 
-Ticks log_ticks(double low, double high) {
-  const int first = int(std::floor(low)), last = int(std::floor(high));
-  const int every = (last - first) / 7 + 1;
-  const bool short_range = high - low < 2.2;
+Ticks log_ticks(double low, double high, const LabelRoom& room) {
+  struct Tick {
+    int mantissa, exponent;
+  };
+  std::vector<Tick> all;
   Ticks ticks;
+  std::vector<double> places;
+  const int first = int(std::floor(low)), last = int(std::floor(high));
   for (int exponent = first; exponent <= last; ++exponent)
     for (int m = 1; m < 10; ++m) {
-      const double position = m * std::pow(10, exponent);
-      if (std::log10(position) < low || std::log10(position) > high) continue;
-      std::string label;
-      if (m == 1 && (last - exponent) % every == 0) label = power_of_ten(exponent);
-      if (short_range && (m == 1 || m == 2 || m == 5)) label = number(position, 1);
+      const double position = m * std::pow(10, exponent), place = std::log10(position);
+      if (place < low || place > high) continue;
+      all.push_back({m, exponent});
       ticks.positions.push_back(position);
-      ticks.labels.push_back(label);
+      places.push_back((place - low) / (high - low));
     }
+  const bool short_range = high - low < 2.2;
+  std::vector<std::function<bool(std::size_t)>> choices;
+  if (short_range)
+    choices.push_back([&](std::size_t n) {
+      return all[n].mantissa == 1 || all[n].mantissa == 2 || all[n].mantissa == 5;
+    });
+  for (int every = 1; every <= last - first + 1; ++every)
+    choices.push_back([&, every](std::size_t n) {
+      return all[n].mantissa == 1 && (last - all[n].exponent) % every == 0;
+    });
+  if (short_range)
+    for (std::size_t every = 1; every <= all.size(); ++every)
+      choices.push_back([every](std::size_t n) { return n % every == 0; });
+  ticks.labels.resize(all.size());
+  for (const auto& chosen : choices) {
+    std::vector<std::string> labels(all.size());
+    for (std::size_t n = 0; n < all.size(); ++n)
+      if (chosen(n))
+        labels[n] = short_range ? number(ticks.positions[n], 1) : power_of_ten(all[n].exponent);
+    if (!stay_apart(labels, places, room)) continue;
+    if (count_labels(labels) > count_labels(ticks.labels)) ticks.labels = labels;
+    if (count_labels(labels) > 1) break;
+  }
   return ticks;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,19 @@ struct Ticks {
   int exponent = 0;                ///< 0 unless the labels would be very small or large
 };
 
-/// Three to eight round positions within [low, high], low < high.
-Ticks linear_ticks(double low, double high);
+/// What an axis has for the labels of its ticks; lengths are along it.
+struct LabelRoom {
+  double axis;                                     ///< from end to end
+  std::function<double(const std::string&)> label; ///< of a label, with the gap to the next
+};
+
+/// Three to eight round positions within [low, high], low < high. Labels are at equal distances, as
+/// many as stay apart.
+Ticks linear_ticks(double low, double high, const LabelRoom& room);
 
 /// 1, 2 ... 9 times the powers of ten within [10^low, 10^high]. Powers are labelled as far as
-/// labels stay apart, 2 and 5 times them too where there are hardly more than two.
-Ticks log_ticks(double low, double high);
+/// labels stay apart, 2 and 5 times them too where there are hardly more than two, and others where
+/// else there was one label alone.
+Ticks log_ticks(double low, double high, const LabelRoom& room);
 
 } // namespace lamella::render

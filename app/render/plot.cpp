@@ -63,9 +63,9 @@ Range range_of(const Plot& plot, int coordinate, const Axis& axis, double margin
   return {unscaled(low - rim, axis), unscaled(high + rim, axis)};
 }
 
-Ticks ticks_of(const Range& range, const Axis& axis) {
-  return axis.logarithmic ? log_ticks(std::log10(range[0]), std::log10(range[1]))
-                          : linear_ticks(range[0], range[1]);
+Ticks ticks_of(const Range& range, const Axis& axis, const LabelRoom& room) {
+  return axis.logarithmic ? log_ticks(std::log10(range[0]), std::log10(range[1]), room)
+                          : linear_ticks(range[0], range[1], room);
 }
 
 /// Puts our ticks on an axis; those without a label are minor ones.
@@ -93,6 +93,12 @@ private:
 };
 
 TextStyle label_style() { return {style::small_type, style::ink}; }
+
+/// Of a label with the gap to the next.
+double width_along_axis(const std::string& label) {
+  return text_width(label, label_style()) + 0.5 * style::small_type;
+}
+double height_along_axis(const std::string&) { return 1.5 * style::small_type; }
 
 double longest(const std::vector<std::string>& texts) {
   double width = 0;
@@ -183,14 +189,15 @@ void draw(Sheet& sheet, const Box& place, Plot plot) {
   leave_out_what_cannot_be_shown(plot);
   const Range x = range_of(plot, 0, plot.x, plot.x.logarithmic ? air : 0);
   const Range y = range_of(plot, 1, plot.y, 1.3 * air);
-  const Ticks x_ticks = ticks_of(x, plot.x), y_ticks = ticks_of(y, plot.y);
   const double names = longest(names_of(plot));
 
   constexpr double title_room = 1.5 * style::type_size;
-  const double left = title_room + longest(y_ticks.labels) + label_gap + tick;
   const double right = names > 0 ? names + 1.5 * dot : 1.2 * style::small_type;
   const double top = dot;
   const double bottom = tick + label_gap + 1.2 * style::small_type + title_room;
+  const Ticks y_ticks = ticks_of(y, plot.y, {place.height - top - bottom, height_along_axis});
+  const double left = title_room + longest(y_ticks.labels) + label_gap + tick;
+  const Ticks x_ticks = ticks_of(x, plot.x, {place.width - left - right, width_along_axis});
 
   const auto chart = std::make_shared<QCustomPlot>();
   chart->setBackground(Qt::NoBrush);

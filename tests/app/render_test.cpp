@@ -22,6 +22,7 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <random>
 #include <unistd.h>
 
 namespace lamella::render {
@@ -544,24 +545,73 @@ TEST(Labels, numbers_read_as_in_print) {
   EXPECT_EQ(plain(number(-1.6e-13)), "-1.6x10^-13");
 }
 
+const LabelRoom wide{1000, [](const std::string&) { return 80.0; }};
+
+std::vector<std::string> named(Ticks ticks) {
+  std::erase(ticks.labels, "");
+  return ticks.labels;
+}
+
 TEST(Labels, ticks_are_round) {
-  const Ticks energies = linear_ticks(46.5, 80.1);
+  const Ticks energies = linear_ticks(46.5, 80.1, wide);
   EXPECT_THAT(energies.labels, ElementsAre("50", "60", "70", "80"));
-  const Ticks times = linear_ticks(0, 1.6e-3);
+  const Ticks times = linear_ticks(0, 1.6e-3, wide);
   EXPECT_THAT(times.labels, ElementsAre("0", "0.5", "1.0", "1.5"));
   EXPECT_EQ(times.exponent, -3);
-  EXPECT_THAT(linear_ticks(-2, 1).labels, ElementsAre("−2", "−1", "0", "1"));
+  EXPECT_THAT(linear_ticks(-2, 1, wide).labels, ElementsAre("−2", "−1", "0", "1"));
 }
 
 TEST(Labels, logarithmic_ticks_have_labels_enough) {
-  const auto labels = [](double low, double high) {
-    std::vector<std::string> named = log_ticks(low, high).labels;
-    std::erase(named, "");
-    return named;
+  EXPECT_THAT(named(log_ticks(-0.4, 1.1, wide)), ElementsAre("0.5", "1", "2", "5", "10"));
+  EXPECT_THAT(named(log_ticks(-5.1, -1.9, wide)), ElementsAre("10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"));
+  EXPECT_THAT(named(log_ticks(-1.65, -1.31, wide)), ElementsAre("0.03", "0.04"))
+      << "neither 1, 2 nor 5";
+  EXPECT_EQ(log_ticks(0, 1, wide).positions.size(), 10u);
+}
+
+TEST(Labels, are_fewer_where_they_would_collide) {
+  const auto within = [](double axis) {
+    return LabelRoom{axis, [](const std::string&) { return 80.0; }};
   };
-  EXPECT_THAT(labels(-0.4, 1.1), ElementsAre("0.5", "1", "2", "5", "10"));
-  EXPECT_THAT(labels(-5.1, -1.9), ElementsAre("10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"));
-  EXPECT_EQ(log_ticks(0, 1).positions.size(), 10u);
+  EXPECT_THAT(named(linear_ticks(0, 1.6e-3, within(200))), ElementsAre("0", "1"));
+  EXPECT_THAT(linear_ticks(-2, 1, within(200)).labels, ElementsAre("−2", "", "0", ""));
+  EXPECT_THAT(linear_ticks(1, 3, within(200)).labels, ElementsAre("1", "", "2", "", "3"));
+  EXPECT_THAT(named(log_ticks(-7.5, -2.8, within(300))), ElementsAre("10⁻⁷", "10⁻⁵", "10⁻³"));
+  EXPECT_THAT(named(log_ticks(-0.1, 1.9, within(200))), ElementsAre("1", "10"));
+}
+
+TEST(Labels, stay_apart_whatever_the_range) {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  const auto width = [](const std::string& label) { return 30.0 * plain(label).size(); };
+  constexpr double widest = 30 * 8;
+  for (int n = 0; n < 4000; ++n) {
+    const bool logarithmic = n % 2 == 1;
+    const double axis = std::pow(10, between(1.7, 3.3));
+    const double low =
+        logarithmic ? between(-12, 8) : between(-3, 3) * std::pow(10, between(-9, 9));
+    const double extent = logarithmic
+                              ? between(0.5, 12)
+                              : std::max(std::abs(low), 1e-9) * std::pow(10, between(-1.5, 2));
+    const double high = low + extent;
+    const LabelRoom room{axis, width};
+    const Ticks ticks = logarithmic ? log_ticks(low, high, room) : linear_ticks(low, high, room);
+    ASSERT_EQ(ticks.labels.size(), ticks.positions.size());
+    const auto place = [&](double position) {
+      return axis * ((logarithmic ? std::log10(position) : position) - low) / extent;
+    };
+    double taken = -1e9;
+    for (std::size_t i = 0; i < ticks.labels.size(); ++i) {
+      if (ticks.labels[i].empty()) continue;
+      const double middle = place(ticks.positions[i]), half = width(ticks.labels[i]) / 2;
+      ASSERT_GE(middle - half, taken) << ticks.labels[i] << " from " << low << " to " << high;
+      taken = middle + half;
+    }
+    ASSERT_GE(named(ticks).size(), axis > 3 * widest ? 2u : 1u)
+        << "from " << low << " to " << high << " on " << axis;
+  }
 }
 
 } // namespace
