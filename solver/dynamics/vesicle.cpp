@@ -27,6 +27,9 @@ constexpr double force_limit = 1;
 constexpr double start_drift = 1e-4, negligible_drift = 5e-7, worst_drift = 5e-6;
 constexpr int most_corrections = 12;
 constexpr double dent_loss = 2e-4; // of the volume of a sphere
+// Of the energy of a start with phases, from one measurement to the next.
+constexpr double settled_energy = 1e-3;
+constexpr int most_settlings = 10;
 constexpr double longest_displacement = 0.3;
 // Spacings; displaced further than that, the membrane needs samples that it did not before. (Where
 // the constraints are delicate, always: curvatures feel to first order that points displaced along
@@ -105,7 +108,23 @@ Vesicle::Vesicle(const Scene& scene, const Start& start, Fourier& fourier, const
   set_lengths(scene);
   const Quantities corrected = quantities(of_each_);
   measure_forces(0);
-  if (phases_) set_quantities(corrected);
+  if (phases_) {
+    set_quantities(corrected);
+    settle_boundaries();
+  }
+}
+
+/// The psi of a start need not be a distance; each measurement brings it nearer to one, and only
+/// with one do the strips along the boundaries have the energy that they have in a run.
+void Vesicle::settle_boundaries() {
+  double before = energies().sum();
+  for (int pass = 0; pass < most_settlings; pass++) {
+    measure(0);
+    const EnergyTerms terms = energies();
+    const double now = terms.sum();
+    if (std::abs(now - before) < settled_energy * energy_scale(terms)) return;
+    before = now;
+  }
 }
 
 Vesicle::State Vesicle::state() const {

@@ -164,6 +164,7 @@ private:
   void start_materials(const Scene& scene, const Start& start, Fourier& fourier);
   void set_lengths(const Scene& scene);
   double leave_sphere();
+  void settle_boundaries();
   void note_origin();
   void locate();
   void locate_membrane();
