@@ -24,6 +24,7 @@ constexpr double trusted = 0.1;      // correction of a predicted point, in step
 constexpr double psi_margin = 0.5;   // beyond its values in a cell, of their range
 constexpr double same_place = 1;     // of two ends
 constexpr double same_point = 0.3;   // from a curve's point, in its direction: on the curve
+constexpr double same_end = 0.1;     // or a step: the curve has come to its end
 constexpr double transversal = 0.05; // sine of the angle between the gradients
 
 /// The quintic between two points of a curve that has their tangents and curvatures; u in [0, 1] is
@@ -81,7 +82,7 @@ private:
   Curve on_boundary(std::vector<Vector3d> points, int iterations, double tolerance) const;
   std::optional<BoundaryPoint> advance(const BoundaryPoint& from, double& step,
                                        int direction) const;
-  bool extend(Curve& curve, int direction, std::size_t most_points) const;
+  bool extend(Curve& curve, int direction, const BoundaryPoint& end, std::size_t most_points) const;
   std::vector<Vector3d> equally_spaced(const Curve& curve) const;
 
   const LevelSet &phi_, &psi_;
@@ -162,16 +163,17 @@ std::optional<BoundaryPoint> Tracer::advance(const BoundaryPoint& from, double& 
   return {};
 }
 
-/// Appends points until the curve closes (true) or cannot be followed.
-bool Tracer::extend(Curve& curve, int direction, std::size_t most_points) const {
-  const BoundaryPoint start = curve.front();
+/// Appends points until the curve has come to `end` (true) or cannot be followed.
+bool Tracer::extend(Curve& curve, int direction, const BoundaryPoint& end,
+                    std::size_t most_points) const {
   double step = point_distance * h_;
   while (curve.size() < most_points) {
     const BoundaryPoint at = curve.back();
     step = std::min({2 * step, point_distance * h_, turn / at.curvature().norm()});
-    const Vector3d home = start.x - at.x;
-    const double along = direction * home.dot(at.t);
-    if (curve.size() > 2 && along > 0 && home.norm() < 1.2 * step && at.t.dot(start.t) > 0)
+    const Vector3d left = end.x - at.x;
+    const double along = direction * left.dot(at.t);
+    if (curve.size() > 2 && along > 0 && left.norm() < std::max(1.2 * step, same_end * h_) &&
+        at.t.dot(end.t) > 0)
       return true;
     const std::optional<BoundaryPoint> next = advance(at, step, direction);
     if (!next) break;
@@ -182,12 +184,12 @@ bool Tracer::extend(Curve& curve, int direction, std::size_t most_points) const 
 
 Tracer::Walk Tracer::walk(const BoundaryPoint& start, std::size_t most_points) const {
   Curve forwards{start};
-  if (extend(forwards, 1, most_points)) return {std::move(forwards), true};
+  if (extend(forwards, 1, start, most_points)) return {std::move(forwards), true};
   Curve curve{start};
-  extend(curve, -1, most_points);
+  const bool closed = extend(curve, -1, forwards.back(), most_points);
   std::ranges::reverse(curve);
   curve.insert(curve.end(), forwards.begin() + 1, forwards.end());
-  return {std::move(curve), false};
+  return {std::move(curve), closed};
 }
 
 std::vector<Vector3d> Tracer::equally_spaced(const Curve& curve) const {
@@ -241,6 +243,13 @@ void remove_seeds(Curve& seeds, const Curve& curve, double h) {
   for (std::size_t i = 0; i < seeds.size(); i++)
     if (!gone[i]) seeds[kept++] = seeds[i];
   seeds.resize(kept);
+}
+
+/// Past a sharp turn a walk may come upon a curve that another has followed.
+bool is_on(const BoundaryPoint& p, std::span<const BoundaryPoint> curves, double h) {
+  return std::ranges::any_of(curves, [&](const BoundaryPoint& q) {
+    return (q.x - p.x).norm() < same_point * h && q.t.dot(p.t) > 0;
+  });
 }
 
 } // namespace
@@ -318,7 +327,19 @@ void PhaseBoundary::trace(const LevelSet& phi, const LevelSet& psi, const Narrow
     pieces.push_back(std::move(walk.points));
   }
   piece_begin_ = {points_.size()};
-  for (const Curve& piece : pieces) add_open(piece);
+  for (const Curve& piece : pieces) {
+    Curve rest; // between points that are on what was found before
+    const auto add_rest = [&] {
+      if (rest.size() > 1) add_open(rest);
+      rest.clear();
+    };
+    for (const BoundaryPoint& p : piece)
+      if (is_on(p, points_, h))
+        add_rest();
+      else
+        rest.push_back(p);
+    add_rest();
+  }
 }
 
 } // namespace lamella
