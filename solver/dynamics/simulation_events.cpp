@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
+#include <numbers>
+#include <span>
 #include <utility>
 
 // What happens to a membrane besides moving: it parts, ruptures, meets itself, comes near the sides
@@ -23,6 +26,42 @@ constexpr int steps_between_attempts = 5;   // to part where it would have raise
 // Squared spacings: smaller domains do not count; smaller ones that are gone shrank away.
 constexpr double least_domain = 8, vanishing_domain = 40;
 constexpr double restart_step = 0.03; // after parting; h^4 / kappa
+
+double distance(const Domain& a, const Domain& b) {
+  return std::hypot(a.center[0] - b.center[0], a.center[1] - b.center[1],
+                    a.center[2] - b.center[2]);
+}
+
+/// The domain that has no counterpart among the others, and the one of them that is nearest to it,
+/// if any.
+std::pair<const Domain*, const Domain*> odd_one(std::span<const Domain> domains,
+                                                std::span<const Domain> others) {
+  std::pair<const Domain*, const Domain*> odd{};
+  double farthest = -1;
+  for (const Domain& d : domains) {
+    const Domain* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Domain& o : others)
+      if (const double far = distance(d, o); far < least) {
+        least = far;
+        nearest = &o;
+      }
+    if (least > farthest) {
+      farthest = least;
+      odd = {&d, nearest};
+    }
+  }
+  return odd;
+}
+
+/// Where a domain, were it round, ends towards another.
+Vec3 rim(const Domain& domain, const Domain& other) {
+  const double radius = std::sqrt(domain.area / std::numbers::pi),
+               share = std::min(1.0, radius / distance(domain, other));
+  Vec3 x;
+  for (int d = 0; d < 3; d++) x[d] = std::lerp(domain.center[d], other.center[d], share);
+  return x;
+}
 } // namespace
 
 Vec3 Simulation::in_space(Vec3 place) const {
@@ -76,15 +115,17 @@ void Simulation::note_domains() {
   const std::vector<Domain> before = std::exchange(domains_, domains());
   if (before.size() == domains_.size()) return;
   const bool fewer = domains_.size() < before.size();
-  const auto smallest = std::ranges::min_element(fewer ? before : domains_, {}, &Domain::area);
+  const std::vector<Domain>&more = fewer ? before : domains_, &others = fewer ? domains_ : before;
   const double h = grid().spacing;
   Event e = event_now();
   e.domains_before = int(before.size());
   e.domains_after = int(domains_.size());
-  e.place = smallest->center;
-  e.kind = !fewer                                      ? Event::Kind::domain_parted
-           : smallest->area < vanishing_domain * h * h ? Event::Kind::domain_vanished
-                                                       : Event::Kind::domains_merged;
+  const auto [odd, nearest] = odd_one(more, others);
+  const bool vanished = fewer && odd->area < vanishing_domain * h * h;
+  e.kind = vanished ? Event::Kind::domain_vanished
+           : fewer  ? Event::Kind::domains_merged
+                    : Event::Kind::domain_parted;
+  e.place = vanished || !nearest ? odd->center : rim(*odd, *nearest);
   note(e);
 }
 
@@ -317,7 +358,10 @@ void Simulation::recentre_if_needed() {
 void Simulation::move_box(const std::array<int, 3>& cells) {
   vesicle_.shift(cells);
   stepper_.shift(cells);
-  for (int d = 0; d < 3; d++) cells_[d] += cells[d];
+  for (int d = 0; d < 3; d++) {
+    cells_[d] += cells[d];
+    for (Domain& domain : domains_) domain.center[d] -= cells[d] * grid().spacing;
+  }
   vesicle_.measure_anew(time());
 }
 

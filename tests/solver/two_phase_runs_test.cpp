@@ -244,6 +244,7 @@ TEST(Domains, ThatBecomeRoundSideBySideMerge) {
   const Event& merged = *std::ranges::find(run.events, Kind::domains_merged, &Event::kind);
   EXPECT_EQ(merged.domains_before, 2);
   EXPECT_EQ(merged.domains_after, 1);
+  EXPECT_NEAR(merged.place[1], 0, 0.1) << "between them; their middles are 0.25 from there";
   expect_held(run.history);
 }
 
