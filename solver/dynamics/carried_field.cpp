@@ -23,9 +23,8 @@ std::vector<double> at_nearest_points(const LevelSet& f, const NarrowBand& band)
   const ConstPoints p = band.points();
   constexpr std::size_t chunk = 256;
   parallel_for(band.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    double taylor[10 * chunk];
-    kernels().taylor(f.view(), end - begin, {p.x + begin, p.y + begin, p.z + begin}, taylor);
-    std::copy_n(taylor, end - begin, values.begin() + std::ptrdiff_t(begin));
+    kernels().values(f.view(), end - begin, {p.x + begin, p.y + begin, p.z + begin},
+                     &values[begin]);
   });
   return values;
 }

@@ -22,6 +22,9 @@ constexpr double shortest_step = 1e-10; // h^4 / kappa; what fails in so short a
 // Of what steps add to the constraints beyond first order; on a sphere it cannot be made up for.
 constexpr double memory = 0.9;
 
+// Spacings in a step. Noise of the gauge comes as the membrane moves: after a shorter move less of
+// it is filtered, so that a membrane at rest stays where it is.
+constexpr double noisy_move = 0.01;
 // |grad phi| over its mean; where it varies more the step loses stability.
 constexpr double gauge_limit = 1.2;
 constexpr int steps_between_renormalisations = 5;
@@ -101,7 +104,9 @@ void Simulation::step(double latest) {
 std::optional<Simulation::Failure> Simulation::try_step(double then) {
   const SurfaceGeometry& surface = vesicle_.surface();
   const double dt = then - time(), scale = vesicle_.energy_scale(measures_.terms);
-  gauge_.filter(vesicle_.phi(), vesicle_.band());
+  const bool has_history = stepper_.memory().dt > 0;
+  gauge_.filter(vesicle_.phi(), vesicle_.band(),
+                has_history ? std::min(1.0, last_move() / (noisy_move * grid().spacing)) : 1);
   extend_rates([&](std::size_t i) { return vesicle_.velocity(i); });
   stepper_.predict(vesicle_.extension(), dt, implicit_symbol());
   if (steps_ % steps_between_responses == 0 || dt > 1.5 * response_dt_ || 1.5 * dt < response_dt_) {
@@ -343,16 +348,21 @@ double Simulation::choose_dt(double latest) const {
 double Simulation::speed() const {
   const double dt = stepper_.memory().dt;
   if (vesicle_.gradient_stiffness() == 0 || dt == 0) return vesicle_.max_speed();
+  return last_move() / dt;
+}
+
+/// How far the last step moved the membrane, at most.
+double Simulation::last_move() const {
   const SurfaceGeometry& surface = vesicle_.surface();
   const NarrowBand& band = vesicle_.band();
-  double fastest = 0;
+  double furthest = 0;
   for (std::size_t i = 0; i < surface.entry().size(); i++) {
     const int s = surface.entry()[i];
     if (std::abs(band.distance()[s]) < grid().spacing)
-      fastest = std::max(fastest,
-                         std::abs(stepper_.increment()[band.node()[s]]) / (surface.grad()[i] * dt));
+      furthest =
+          std::max(furthest, std::abs(stepper_.increment()[band.node()[s]]) / surface.grad()[i]);
   }
-  return fastest;
+  return furthest;
 }
 
 double Simulation::next_dt() const { return choose_dt(1e300); }

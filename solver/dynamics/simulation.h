@@ -104,6 +104,7 @@ private:
   ImplicitSymbol implicit_symbol() const;
   double choose_dt(double latest) const;
   double speed() const;
+  double last_move() const;
   double step_error() const;
   double boundary_error() const;
   void go_back();

@@ -362,9 +362,8 @@ void Vesicle::evaluate_on_membrane(std::span<const double> change, std::vector<d
   const ConstPoints p = surface_.points();
   parallel_for(surface_.size(), 256, [&](std::size_t begin, std::size_t end) {
     const std::size_t n = end - begin;
-    double taylor[10 * 256];
-    kernels().taylor(view, n, {p.x + begin, p.y + begin, p.z + begin}, taylor);
-    for (std::size_t i = 0; i < n; i++) moves[begin + i] = taylor[i] / surface_.grad()[begin + i];
+    kernels().values(view, n, {p.x + begin, p.y + begin, p.z + begin}, &moves[begin]);
+    for (std::size_t i = begin; i < end; i++) moves[i] /= surface_.grad()[i];
   });
   for (std::size_t s = 0; s < band_.size(); s++) field_[band_.node()[s]] = 0;
 }

@@ -76,6 +76,9 @@ struct Kernels {
   void (*full_jets)(const SplineView& spline, std::size_t n, ConstPoints p,
                     const SurfaceArrays& out);
 
+  /// Values at points.
+  void (*values)(const SplineView& spline, std::size_t n, ConstPoints p, double* out);
+
   /// Value, gradient (x, y, z) and Hessian (xx, yy, zz, xy, xz, yz) at points: out has ten arrays
   /// of n numbers, one after the other.
   void (*taylor)(const SplineView& spline, std::size_t n, ConstPoints p, double* out);

@@ -375,6 +375,16 @@ void full_jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceA
   }
 }
 
+void values(const SplineView& s, std::size_t n, ConstPoints p, double* out) {
+  for (std::size_t first = 0; first < n; first += 8) {
+    alignas(64) double q[3][8];
+    V8 value[1];
+    gather(p, first, n, q);
+    derivatives<0>(s, q, value);
+    put(out, first, n, value[0]);
+  }
+}
+
 void taylor(const SplineView& s, std::size_t n, ConstPoints p, double* out) {
   constexpr const auto& slot = derivative_index<2>.slot;
   for (std::size_t first = 0; first < n; first += 8) {
@@ -505,6 +515,7 @@ const Kernels table = {LAMELLA_STRING(LAMELLA_ISA),
                        curvatures,
                        jets,
                        full_jets,
+                       values,
                        taylor,
                        third,
                        cubic,

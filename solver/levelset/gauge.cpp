@@ -35,13 +35,14 @@ double noise_damping(const Grid& grid, std::span<const double> c, int node) {
 
 Gauge::Gauge(const Grid& grid) : change_(grid.size(), 0.0) {}
 
-void Gauge::filter(LevelSet& phi, const NarrowBand& band) {
+void Gauge::filter(LevelSet& phi, const NarrowBand& band, double share) {
+  if (share == 0) return;
   const std::span<double> c = phi.coefficients();
   const std::span<const int> node = band.node();
   at_point_.resize(band.size());
   parallel_for(band.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; s++)
-      change_[node[s]] = band.taper()[s] * noise_damping(phi.grid(), c, node[s]);
+      change_[node[s]] = share * band.taper()[s] * noise_damping(phi.grid(), c, node[s]);
   });
   SplineView change = phi.view();
   change.coefficients = change_.data();

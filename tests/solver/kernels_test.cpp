@@ -162,7 +162,10 @@ TEST_P(EachKernels, FindThirdDerivatives) {
       y{0.2, 0.2, 0.2, 0.2 + e, 0.2 - e, 0.2, 0.2}, z{-.3, -.3, -.3, -.3, -.3, -.3 + e, -.3 - e};
   const std::size_t n = x.size();
   std::vector<double> taylor(10 * n), third(10 * n);
+  std::vector<double> values(n);
   GetParam()->taylor(f.view(), n, {x.data(), y.data(), z.data()}, taylor.data());
+  GetParam()->values(f.view(), n, {x.data(), y.data(), z.data()}, values.data());
+  for (std::size_t i = 0; i < n; i++) EXPECT_NEAR(values[i], taylor[i], 1e-14);
   GetParam()->third(f.view(), n, {x.data(), y.data(), z.data()}, third.data());
   // By which axis which of xx, yy, zz, xy, xz, yz gives xxx, xxy, xxz, xyy, xyz, xzz ...
   constexpr int axis[10]{0, 1, 2, 1, 2, 2, 1, 2, 2, 2}, hessian[10]{0, 0, 0, 3, 3, 4, 1, 1, 5, 2};
