@@ -18,8 +18,8 @@ public:
   /// Damps grid-scale noise of the coefficients, -strength/48 sum_d delta_d^4 c in the band, less
   /// the value of that change at each node's nearest point, so that the membrane keeps its place.
   /// Without it noise in phi off the membrane grows until the step size suffers. What it is less is
-  /// found by cubics, and so not all of it: the membrane moves by some 1e-6 spacings, which steps
-  /// take back. `share` of the strength, 0 to 1.
+  /// found by cubics, and so not all of it: the membrane moves a little, which steps take back.
+  /// `share` of the strength, 0 to 1.
   void filter(LevelSet& phi, const NarrowBand& band, double share);
 
   /// Multiplies phi by a smooth positive factor that brings |grad phi| on the membrane to 1. `grad`

@@ -58,7 +58,7 @@ TEST(Relaxation, CoarseGridsStayAccurate) {
 }
 
 /// Measured 1.3e-4 of the speed after the first step. With the gauge filtered as strongly at rest
-/// as on the way it stays at 1e-3, and steps stay shorter than they may be.
+/// as on the way it stayed at 1e-3 at 64^3, with steps shorter than they may be.
 TEST(Relaxation, ComesToRest) {
   Scene scene = builtin_scene("fig3_oblate");
   scene.nodes = {48, 48, 48};

@@ -45,7 +45,7 @@ void expect_held(const std::vector<Measures>& history) {
 }
 
 /// Measured only once, before psi is the distance, the energy of the start is 705.8 and that of the
-/// first step 764.4.
+/// first step 764.4. Now 764.8, and 763.2 after 1e-11: 2.2e-3, of which why is not known.
 TEST(PhaseBoundary, IsSettledWhereTheRunStarts) {
   Scene scene = scene_of({.kind = ShapeKind::prolate, .reduced_volume = 0.8}, 32, 1e-11);
   scene.domains = {.kind = DomainsKind::cap, .area_fraction = 0.4, .direction = {1, 0.5, 0}};
