@@ -81,9 +81,31 @@ bool is_history(const fs::path& file) {
   }
 }
 
-/// Of a run that was killed while it began or was replaced.
-bool is_remnant(const fs::path& folder) {
-  return is_free(folder / names::scene) && is_status(folder / names::status);
+/// Whether a folder of a run has a file with a name of its kind.
+bool has_any(const Folder& run, const char* inner,
+             std::optional<std::size_t> (*number)(const std::string&)) {
+  const std::optional<Folder> folder = run.find(inner);
+  return folder && std::ranges::any_of(folder->names(), [&](const std::string& name) {
+           return number(name).has_value();
+         });
+}
+
+/// Of a run that was killed while it began or was replaced: all that it can have then are its first
+/// status and its start. What has lost its scene since is none.
+bool is_remnant(const Folder& folder) {
+  const auto may_be_there = [](std::string_view name) {
+    return name == names::status || name == names::start;
+  };
+  for (const char* name : own_files)
+    if (!may_be_there(name) && folder.type_of(name) != fs::file_type::not_found) return false;
+  return is_status(folder.path() / names::status) &&
+         !has_any(folder, names::frames, frame_number) &&
+         !has_any(folder, names::checkpoints, steps_in);
+}
+
+/// Whether a frame may have been written when the program was killed, before it was listed.
+bool has_unlisted_frame(const fs::path& folder) {
+  return status_of_run(folder, [](const std::string&) {}).state == RunStatus::State::running;
 }
 
 std::size_t listed_frames(const fs::path& folder) {
@@ -212,7 +234,7 @@ void refuse_unsuitable(const Folder& folder, bool force) {
   const std::vector<std::string> there = folder.names();
   if (std::ranges::all_of(there, is_unfinished)) return;
   const bool run = holds_run(folder.path());
-  if ((run && force) || is_remnant(folder.path())) return refuse_foreign(folder);
+  if ((run && force) || is_remnant(folder)) return refuse_foreign(folder);
   throw UsageError(fmt::format("{}: the folder {}; choose another with -o{}",
                                folder.path().string(),
                                run     ? "holds a run"
@@ -229,11 +251,12 @@ void refuse_foreign(const Folder& folder, std::size_t frames) {
     if (const std::optional<Folder> inner = folder.find(name)) inner->refuse_read_only();
   if (const std::optional<Folder> inner = folder.find(names::frames)) {
     require_regular(*inner, names::series);
-    const std::size_t known = std::max(frames, listed_frames(folder.path()));
+    const std::size_t known = std::max(frames, listed_frames(folder.path())) +
+                              (has_unlisted_frame(folder.path()) ? 1 : 0);
     for (const std::string& name : inner->names()) {
       const std::optional<std::size_t> number = frame_number(name);
       if (number) require_regular(*inner, name);
-      if (number > known) // the one after them may have been written when the program was killed
+      if (number && *number >= known)
         refuse_as_foreign(inner->path() / name,
                           fmt::format("is not among the frames that {} lists", names::series));
     }

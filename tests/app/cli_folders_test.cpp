@@ -136,6 +136,29 @@ TEST_F(Folders, with_a_scene_alone_hold_no_run) {
   expect_refused(on, 2, "there is no run to resume");
 }
 
+TEST_F(Folders, whose_run_has_lost_its_scene_are_not_replaced) {
+  ASSERT_EQ(call(quick({"-o", "run"})).code, 0);
+  fs::rename(work() / "run" / "scene.toml", work() / "mine.toml"); // to change something in it
+  expect_refused(words("run mine.toml -o run"), 2, "run: the folder is not empty");
+  expect_refused(words("run mine.toml --resume run"), 2, "run: the folder is not empty");
+  expect_refused(words("run mine.toml -o run --force"), 2, "--force leaves alone");
+  fs::rename(work() / "mine.toml", work() / "run" / "scene.toml");
+  EXPECT_EQ(call(on).code, 0);
+}
+
+TEST_F(Folders, with_a_status_alone_hold_no_run) {
+  ASSERT_EQ(call(quick({"-o", "run"})).code, 0);
+  const std::string status = text_of(work() / "run" / "status.toml");
+  for (const char* mine : {"summary.txt", "history.csv", "figure.png", "frames/frame_0000.hdf",
+                           "checkpoints/checkpoint_00000001.hdf"}) {
+    fs::remove_all(work() / "run");
+    fs::create_directories((work() / "run" / mine).parent_path());
+    write(work() / "run" / mine, "mine");
+    write(work() / "run" / "status.toml", status);
+    expect_refused(quick({"-o", "run"}), 2, "run: the folder is not empty");
+  }
+}
+
 TEST_F(Folders, keep_all_that_is_not_certainly_of_the_run) {
   make_interrupted_run();
   const fs::path run = work() / "run";
@@ -162,12 +185,17 @@ TEST_F(Folders, keep_all_that_is_not_certainly_of_the_run) {
 
 TEST_F(Folders, refuse_a_frame_that_the_run_does_not_list) {
   make_interrupted_run();
-  write(work() / "run" / "frames" / "frame_9000.hdf", "mine");
-  for (const Arguments& arguments : {anew, on})
-    expect_refused(
-        arguments, 4,
-        "run/frames/frame_9000.hdf: is not among the frames that frames.hdf.series lists");
-  fs::remove(work() / "run" / "frames" / "frame_9000.hdf");
+  const fs::path next = fmt::format("frame_{:04}.hdf", frames_of(work() / "run").size());
+  for (const fs::path& name : {fs::path("frame_9000.hdf"), next}) {
+    const fs::path file = work() / "run" / "frames" / name;
+    write(file, "mine");
+    for (const Arguments& arguments : {anew, on})
+      expect_refused(arguments, 4,
+                     fmt::format("run/frames/{}: is not among the frames that frames.hdf.series "
+                                 "lists",
+                                 name.string()));
+    fs::remove(file);
+  }
   EXPECT_EQ(call(anew).code, 0);
 }
 
@@ -257,8 +285,9 @@ TEST_F(Folders, draw_nothing_through_links) {
   fs::create_symlink(base_ / "outside.png", work() / "run" / "figure.png");
   expect_refused(words("render run --width 200"), 4,
                  "run/figure.png: cannot be replaced: it is a symbolic link");
-  fs::create_symlink(base_ / "outside.png", work() / "run" / "movie.mp4.part");
-  call(words("movie run --seconds 0.1 --width 200 --height 200"));
+  fs::create_symlink(base_ / "outside.png", work() / "run" / "movie.mp4");
+  expect_refused(words("movie run --seconds 0.1 --width 200 --height 200"), 4,
+                 "run/movie.mp4: cannot be replaced: it is a symbolic link");
   EXPECT_EQ(text_of(base_ / "outside.png"), "precious");
 }
 
