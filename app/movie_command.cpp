@@ -8,6 +8,7 @@
 #include "render/qt_session.h"
 #include "render/still.h"
 #include "run_contents.h"
+#include "store/new_file.h"
 #include "usage_error.h"
 
 #include <QProcess>
@@ -19,6 +20,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
+#include <unistd.h>
 
 namespace lamella {
 
@@ -121,8 +123,7 @@ const Format::Encoder& encoder_for(const QString& ffmpeg, const Format& format) 
 class Encoder : public Film {
 public:
   Encoder(const QString& program, const Format& format, fs::path file, const MovieOptions& options)
-      : file_(std::move(file)), part_(file_.string() + ".part") {
-    for (const fs::path& written : {file_, part_}) Place(written).refuse_other_kinds();
+      : file_(std::move(file)), part_(Place(file_)) {
     const Format::Encoder& encoder = encoder_for(program, format);
     process_.setProcessChannelMode(QProcess::SeparateChannels);
     process_.setStandardOutputFile(QProcess::nullDevice());
@@ -132,14 +133,14 @@ public:
                     QString("%1x%2").arg(options.width).arg(options.height), "-r",
                     QString::number(options.rate), "-i", "-", "-c:v", encoder.name} +
             encoder.options +
-            QStringList{"-f", format.muxer, "file:" + QString::fromStdString(part_.string())});
+            // the file that is open here, whatever the bytes of its name
+            QStringList{"-f", format.muxer,
+                        QString("file:/proc/%1/fd/%2").arg(::getpid()).arg(part_.descriptor())});
     if (!process_.waitForStarted()) fail("ffmpeg could not be started");
   }
   ~Encoder() override {
     process_.kill();
     process_.waitForFinished();
-    std::error_code ignored;
-    fs::remove(part_, ignored);
   }
   void add(const render::Picture& picture) override {
     process_.write(reinterpret_cast<const char*>(picture.pixels.data()),
@@ -152,9 +153,7 @@ public:
     process_.waitForFinished(-1);
     if (process_.exitStatus() != QProcess::NormalExit || process_.exitCode() != 0)
       fail(complaint());
-    std::error_code error;
-    fs::rename(part_, file_, error);
-    if (error) fail(error.message());
+    part_.put_in_place();
   }
 
 private:
@@ -167,7 +166,8 @@ private:
     return said.isEmpty() ? "ffmpeg ended" : said.section('\n', -1).toStdString();
   }
 
-  fs::path file_, part_;
+  fs::path file_;
+  NewFile part_;
   QProcess process_;
 };
 

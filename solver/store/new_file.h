@@ -27,6 +27,8 @@ public:
   bool truncate(std::size_t size) noexcept;
   /// Give it its name, in place of what has that name; it stays open.
   void put_in_place();
+  /// For others to write to it.
+  int descriptor() const { return descriptor_; }
 
 private:
   Place place_;

@@ -424,7 +424,7 @@ TEST_F(Cli, makes_a_movie_or_pictures) {
     EXPECT_THAT(text_of(work() / "run" / "movie.mp4").substr(4, 4), "ftyp");
   else
     EXPECT_EQ(names_in(work() / "run" / "movie").size(), 4u) << "without ffmpeg";
-  EXPECT_FALSE(names_in(work() / "run").contains("movie.mp4.part"));
+  for (const std::string& name : names_in(work() / "run")) EXPECT_FALSE(name.starts_with("."));
   EXPECT_EQ(call(words("movie run --width 241")).code, 2);
   EXPECT_EQ(call(words("movie nothing")).code, 2);
 }
@@ -472,7 +472,20 @@ TEST_F(Movies, TakeTheEncoderThatThereIs) {
     EXPECT_EQ(result.code, 0) << output << ": " << result.err;
     EXPECT_EQ(result.out, output + "\n");
     EXPECT_THAT(text_of(work() / output), HasSubstr(expected));
-    EXPECT_FALSE(fs::exists(work() / (output + ".part")));
+    fs::remove(work() / output);
+    EXPECT_EQ(names_in(work()), std::set<std::string>{"run"}) << "nothing half-made";
+  }
+}
+
+TEST_F(Movies, HaveAnyNameAndLeaveOthersAlone) {
+  use_ffmpeg("libx264");
+  write(work() / "x.mp4.part", "mine");
+  EXPECT_EQ(movie("x.mp4").code, 0);
+  EXPECT_EQ(text_of(work() / "x.mp4.part"), "mine");
+  for (const std::string name : {"caf\xe9.mp4", "\xc3\xa9t\xc3\xa9.mp4"}) { // Latin-1, UTF-8
+    const Result result = movie(name);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_THAT(text_of(work() / name), HasSubstr("-c:v libx264"));
   }
 }
 
