@@ -12,6 +12,8 @@
 #include <vtkVesicleDynamics.h>
 #include <vtkVesicleFromSurface.h>
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <cmath>
 #include <functional>
@@ -479,6 +481,46 @@ TEST(VesicleFromSurface, TakesTrianglesOfVeryDifferentSizes) {
   const auto fine = vesicle_from(divided(coarse, 0.4, 5));
   EXPECT_EQ(warning_of(fine), "");
   EXPECT_NEAR(volume_of(fine) / exact_volume_of(coarse), 1, 1e-6);
+}
+
+/// A solid of revolution around an axis that is no axis of the grid.
+vtkSmartPointer<vtkPolyData> turned_lathe(const std::vector<std::array<double, 2>>& profile,
+                                          int slivers) {
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+  std::vector<Vec3> points;
+  std::vector<std::vector<vtkIdType>> sides;
+  const auto add = [&](double r, double z, double angle) {
+    const Eigen::Vector3d p = turn * Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), z);
+    points.push_back({p[0], p[1], p[2]});
+  };
+  add(0, profile.front()[1], 0);
+  add(0, profile.back()[1], 0);
+  for (const auto& [r, z] : profile)
+    for (int n = 0; n < slivers; ++n) add(r, z, 2 * pi * n / slivers);
+  const auto at = [&](std::size_t ring, int n) {
+    return vtkIdType(2 + ring * slivers + n % slivers);
+  };
+  for (int n = 0; n < slivers; ++n) {
+    sides.push_back({0, at(0, n + 1), at(0, n)});
+    sides.push_back({1, at(profile.size() - 1, n), at(profile.size() - 1, n + 1)});
+    for (std::size_t ring = 0; ring + 1 < profile.size(); ++ring) {
+      sides.push_back({at(ring, n), at(ring, n + 1), at(ring + 1, n)});
+      sides.push_back({at(ring, n + 1), at(ring + 1, n + 1), at(ring + 1, n)});
+    }
+  }
+  return polygons(points, sides);
+}
+
+// Lids of fans, sides of strips: the bounds of each sliver meet those of very many others. With
+// boxes along the axes of the grid this took minutes, and four times as much for twice as many.
+TEST(VesicleFromSurface, TakesFansAndStripsOfSlivers) {
+  const auto can = vesicle_from(turned_lathe({{0.5, -0.4}, {0.5, 0.4}}, 30000));
+  EXPECT_EQ(warning_of(can), "");
+  EXPECT_NEAR(volume_of(can) / (pi * 0.25 * 0.8), 1, 1e-5);
+  const auto crossed =
+      vesicle_from(both(turned_lathe({{0.5, -0.4}, {0.5, 0.4}}, 3000),
+                        turned_lathe({{0.2, -0.1}, {0.2, 0.1}}, 50), {0.5, 0.01, 0.02}));
+  EXPECT_THAT(error_of(crossed), HasSubstr("the surface crosses itself"));
 }
 
 // Where a point lies on a line of nodes, or an edge along one, the inside does not leak.

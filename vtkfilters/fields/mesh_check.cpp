@@ -34,9 +34,6 @@ std::optional<Vector3d> crossing(const Vector3d& p, const Vector3d& q,
 
 /// Where two triangles without a common point cross.
 std::optional<Vector3d> crossing(const Mesh& mesh, int one, int other) {
-  for (const int p : mesh.triangles[one])
-    for (const int q : mesh.triangles[other])
-      if (p == q) return {};
   const auto a = mesh.corners(one), b = mesh.corners(other);
   for (int i = 0; i < 3; ++i) {
     if (const auto x = crossing(a[i], a[(i + 1) % 3], b)) return x;

@@ -72,11 +72,11 @@ void check_is_not_flat(const PartedMesh& mesh) {
 }
 
 /// Whether an odd number of other parts is around a triangle of a part.
-bool is_within_odd(const PartedMesh& mesh, const TriangleTree& tree, int triangle) {
+bool is_within_odd(const PartedMesh& mesh, const LineCrossings& lines, int triangle) {
   const auto [a, b, c] = mesh.mesh.corners(triangle);
   const Vector3d x = (a + b + c) / 3;
   int before = 0;
-  for (const auto& crossing : tree.crossings(x[1], x[2]))
+  for (const auto& crossing : lines.at(x[1], x[2]))
     before += crossing.x < x[0] && mesh.part_of[crossing.triangle] != mesh.part_of[triangle];
   return before % 2 == 1;
 }
@@ -106,9 +106,9 @@ PartedMesh parted(Mesh mesh) {
     }
   check_is_not_flat(out);
   if (first.size() == 1) return out;
-  const TriangleTree tree(out.mesh);
+  const LineCrossings lines(out.mesh);
   for (std::size_t p = 0; p < first.size(); ++p)
-    out.parts[p].is_hollow = is_within_odd(out, tree, first[p]);
+    out.parts[p].is_hollow = is_within_odd(out, lines, first[p]);
   return out;
 }
 

@@ -4,9 +4,13 @@
 #include <Eigen/Geometry>
 #include <unsupported/Eigen/BVH>
 
+#include <span>
+
 namespace lamella {
 
-/// The triangles of a mesh by their place. The mesh must stay.
+/// The triangles of a mesh by their place, in boxes that lie as the triangles in them do: what is
+/// asked costs about as much whether these are slivers, fans of them, or of very different sizes.
+/// The mesh must stay.
 class TriangleTree {
 public:
   explicit TriangleTree(const Mesh& mesh);
@@ -19,27 +23,48 @@ public:
   /// What is farther than `exact` may be too far by a twentieth of the rest.
   Nearest nearest(const Eigen::Vector3d& x, int guess, double exact) const;
 
+  /// Triangles that a triangle may touch, other than where they have a point in common.
+  std::vector<int> near(int triangle) const;
+
+private:
+  struct Box {
+    Eigen::Vector3d middle, half; ///< half its lengths, along
+    Eigen::Matrix3d axes;         ///< its axes, the columns
+    double squared_distance(const Eigen::Vector3d& x) const;
+    bool touches(const Box& other, double within) const;
+  };
+  struct Node {
+    Box box;
+    std::array<int, 3> common; ///< points of all its triangles; -1: fewer
+    int begin, end;            ///< of its triangles in order_
+    int first = -1;            ///< of its two inner nodes; -1: a leaf
+  };
+
+  Box box_around(std::span<const int> triangles) const;
+  void divide(int node);
+
+  const Mesh& mesh_;
+  double rounding_ = 0; ///< of what touches
+  std::vector<int> order_;
+  std::vector<Node> nodes_; ///< each before its inner nodes
+};
+
+/// Lines along x through a closed mesh, which must stay.
+class LineCrossings {
+public:
+  explicit LineCrossings(const Mesh& mesh);
+
   struct Crossing {
     double x;
     int triangle;
   };
-  /// Where the line along x through (y, z) crosses a closed mesh: an even number of times, whatever
-  /// edges and points it meets.
-  std::vector<Crossing> crossings(double y, double z) const;
-
-  /// Triangles whose bounds a triangle's touch, itself among them.
-  std::vector<int> near(int triangle) const;
+  /// Where the line through (y, z) crosses the mesh: an even number of times, whatever edges and
+  /// points it meets.
+  std::vector<Crossing> at(double y, double z) const;
 
 private:
-  using Box = Eigen::AlignedBox3d;
-  Box box_of(int triangle) const;
-
-  /// f(triangle) where wanted(box) holds for all boxes around it.
-  template <class Wanted, class F>
-  void for_each(Wanted&& wanted, F&& f) const;
-
   const Mesh& mesh_;
-  Eigen::KdBVH<double, 3, int> tree_;
+  Eigen::KdBVH<double, 2, int> tree_;
 };
 
 } // namespace lamella
