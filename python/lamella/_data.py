@@ -9,7 +9,7 @@ import threading
 import warnings
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkFieldData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 from . import _update, vtkLamellaFilters
@@ -149,6 +149,8 @@ def arrays(data):
     """The arrays of a data set (of its points, else its cells), of a table, or of field data, by
     name. Views without copies: shape (tuples,), or (tuples, components), for images
     (nz, ny, nx[, components])."""
+    if not isinstance(data, (vtkDataObject, vtkFieldData)):
+        raise Error(f"arrays() takes a VTK data set, a table or field data, not {what(data)}")
     points = data.GetPointData() if hasattr(data, "GetPointData") else data.GetRowData() if hasattr(
         data, "GetRowData") else data
     shape = tuple(reversed(data.GetDimensions())) if data.IsA("vtkImageData") else (-1,)

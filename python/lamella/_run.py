@@ -151,9 +151,7 @@ def run(scene, overrides=()):
     """
     reader = vtkVesicleSceneReader()
     for setting in [overrides] if isinstance(overrides, str) else overrides or ():
-        if not isinstance(setting, str):
-            raise Error(f'overrides are texts such as "grid.nodes=96", not {what(setting)}')
-        reader.AddOverride(setting)
+        reader.AddOverride(_scene.override_of(setting))
     if isinstance(scene, Mapping):
         reader.SetSceneText(_scene.text_of(scene))
     elif isinstance(scene, (str, bytes, os.PathLike)):

@@ -14,7 +14,20 @@ def whole_path(path):
     """A file's path as it is from anywhere; what is no file, such as the name of a built-in scene, as
     it is."""
     path = os.fsdecode(path)
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        raise Error(f"{ascii(path)}: the names of files and folders must be UTF-8 here") from None
     return os.path.abspath(path) if os.path.exists(path) else path
+
+
+def override_of(setting):
+    """An override with the whole path of a file that it names."""
+    if not isinstance(setting, str):
+        raise Error(f'overrides are texts such as "grid.nodes=96", not {what(setting)}')
+    key, _, value = setting.partition("=")
+    is_file = key.strip() in ("shape.file", "domains.file") and os.path.exists(value)
+    return f"{key}={json.dumps(whole_path(value), ensure_ascii=False)}" if is_file else setting
 
 
 def text_of(scene):
@@ -32,11 +45,18 @@ def _line(key, value, section=""):
     if key == "file" and isinstance(value, (str, os.PathLike)):
         value = whole_path(value)
     try:
-        return f"{_key(key)} = {_value(value)}"
+        line = f"{_key(key)} = {_value(value)}"
+        line.encode()
+        return line
+    except UnicodeEncodeError:
+        raise Error(f"{_place(key, section)}: {ascii(value)} is not a text of Unicode characters") from None
     except TypeError:
-        place = f"[{section}] {key}" if section else key
-        raise Error(f"{place}: {what(value)} is no value of a scene; numbers, texts, true or false and lists "
-                    "of them are") from None
+        raise Error(f"{_place(key, section)}: {what(value)} is no value of a scene; numbers, texts, true or false "
+                    "and lists of them are") from None
+
+
+def _place(key, section):
+    return f"[{section}] {key}" if section else key
 
 
 def _key(name):

@@ -142,6 +142,11 @@ class Runs(unittest.TestCase):
             frame = {"grid": {"nodes": 32}, "shape": {"kind": "frame", "file": pathlib.Path("none.hdf")}}
             with self.assertRaisesRegex(lamella.Error, os.path.join(str(folder), "none.hdf")):
                 lamella.run(frame)[0]
+            for name in ("of scenes", "no run"):
+                (folder / name).mkdir()
+            (folder / "of scenes" / "frame.toml").write_text("[shape]\nkind = 'frame'\nfile = 'none'\n")
+            with self.assertRaisesRegex(lamella.Error, os.path.join(str(folder), "no run")):
+                lamella.run("of scenes/frame.toml", "shape.file=no run")[0]
         with self.assertRaises(lamella.Error): # the folder has gone with its file
             run[0]
         self.assertEqual(len(earlier), 2)
@@ -287,6 +292,8 @@ class Errors(unittest.TestCase):
         self.check(lambda: lamella.run(SCENE, [33]), "33")
         for nothing in (None, 3, [], object()):
             self.check(lambda: lamella.run(nothing), "a scene is")
+        self.check(lambda: lamella.run({"title": "\ud800"}), "title", "Unicode")
+        self.check(lambda: lamella.run(b"caf\xe9.toml"), "caf", "UTF-8")
 
     def test_stored_runs(self):
         self.check(lambda: lamella.open("/no/such/folder"), "no such file or folder")
@@ -319,6 +326,7 @@ class Errors(unittest.TestCase):
         for function in (lamella.surface, lamella.boundary, lamella.measures):
             for thing in (None, 3, "image", SCENE):
                 self.check(lambda: function(thing), "takes a Frame or a vtkImageData")
+                self.check(lambda: lamella.arrays(thing), "takes a VTK data set")
             self.check(lambda: function(vtkPolyData()), "vtkPolyData", "vtkImageData is required")
         for thing in (None, 3, vtkPolyData()):
             self.check(lambda: lamella.update(thing), "takes a VTK algorithm")
