@@ -15,7 +15,9 @@ struct Sample {
   std::string command, said;
 };
 
-std::string document() { return text_of(LAMELLA_SOURCE_DIR "/docs/command-line.md"); }
+std::string document(const std::string& name = "command-line") {
+  return text_of(LAMELLA_SOURCE_DIR "/docs/" + name + ".md");
+}
 
 std::vector<Sample> samples() {
   std::vector<Sample> all;
@@ -51,6 +53,20 @@ TEST_F(Cli, says_what_the_documentation_quotes) {
   std::size_t said = 0;
   for (const Sample& sample : all) said += std::size_t(std::ranges::count(sample.said, '\n'));
   EXPECT_EQ(quoted, said) << "a message without the command that it answers";
+}
+
+TEST_F(Cli, says_what_the_documentation_quotes_of_scenes) {
+  const std::string format = document("scene-format"), place = "\nvesicle.toml:7: ";
+  const std::size_t begin = format.find(place) + 1, end = format.find("\n", begin),
+                    left_out = format.find("...", begin);
+  ASSERT_TRUE(begin > 0 && left_out < end);
+  EXPECT_EQ(format.find(place, end), format.npos) << "another one";
+  write(work() / "vesicle.toml",
+        "title = \"mine\"\n\n[grid]\nnodes = 32\n\n[shape]\nsemi_axs = 0.7\n");
+  EXPECT_THAT(
+      call(words("run vesicle.toml")).err,
+      testing::AllOf(testing::StartsWith("lamella: " + format.substr(begin, left_out - begin)),
+                     testing::EndsWith(format.substr(left_out + 3, end - left_out - 2))));
 }
 
 TEST_F(Cli, tells_events_as_the_documentation_does) {
