@@ -131,7 +131,10 @@ TEST(PhaseBoundary, KeepsThePiecesOfACurveThatCrossesItself) {
     EXPECT_LE((p[after].x - p[i].x).norm(), 1.1 * s.grid.spacing);
   }
   EXPECT_EQ(ends, 2 * int(s.boundary.open_pieces()));
-  EXPECT_NEAR(s.boundary.length(), 4 * M_PI * R, 0.02); // measured 7e-4 less
+  // Rounding decides at the poles how far a piece goes on, by a step of half a spacing at most.
+  // Measured: shorter by 7e-4 with the baseline kernels, by 0.0236 with those for AVX2.
+  EXPECT_LE(s.boundary.length(), 4 * M_PI * R + 1e-3);
+  EXPECT_GE(s.boundary.length(), 4 * M_PI * R - 0.5 * s.grid.spacing * ends);
 }
 
 // -----------------------------------------------------------------------------------------------
