@@ -126,6 +126,14 @@ std::string rise_text(const Course& course) {
       course.rises(), course.rises() == 1 ? "" : "s", course.energy_rise(), course.time_of_rise());
 }
 
+/// How well steps obey the energy law; nothing where there was nothing to lose.
+std::string balance_text(const Course& course) {
+  constexpr double least = 1e-6; // of the energy
+  if (course.lost() <= least * std::abs(course.start().energy)) return {};
+  return fmt::format("Energy law: {:.6g} lost, {:.6g} dissipated ({:+.2f} %)\n", course.lost(),
+                     course.dissipated(), 100 * (course.dissipated() / course.lost() - 1));
+}
+
 } // namespace
 
 Course::Course(const Measures& start)
@@ -139,6 +147,10 @@ void Course::add(const Measures& measures) {
   if (rise > energy_rise_) {
     energy_rise_ = rise;
     time_of_rise_ = measures.time;
+  }
+  if (measures.balance && measures.components == end_.components && measures.genus == end_.genus) {
+    lost_ += end_.energy - measures.energy + measures.balance->work;
+    dissipated_ += measures.balance->dissipated;
   }
   way_ += measures.dt * std::max(end_.max_speed, measures.max_speed);
   energies_.push_back({measures.time, measures.energy});
@@ -215,6 +227,7 @@ std::string summary(const Scene& scene, const Course& course, std::span<const Ev
   text += fmt::format("\nLargest drift over the run: area {:.1e}, volume {:.1e} (relative)\n",
                       course.area_drift(), course.volume_drift());
   text += rise_text(course);
+  text += balance_text(course);
   if (vesicles.size() > 1) text += vesicle_table(vesicles);
   if (!events.empty()) text += "\nEvents\n";
   for (const Event& event : events) text += fmt::format("  {}\n", to_text(event, grid.spacing));

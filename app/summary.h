@@ -35,6 +35,10 @@ public:
   double time_of_rise() const { return time_of_rise_; }
   /// How many undriven steps raised it by more than rounding.
   long rises() const { return rises_; }
+  /// What the energy lost, and what constraints added by their work, in steps in which the membrane
+  /// did not part or meet; what these steps dissipated. Both 0 where that is not measured.
+  double lost() const { return lost_; }
+  double dissipated() const { return dissipated_; }
   /// No point of the membrane went further.
   double way() const { return way_; }
   /// From when on the energy stayed next to what it was at the end.
@@ -44,6 +48,7 @@ private:
   Measures start_, end_;
   long steps_ = 0, rises_ = 0;
   double area_drift_, volume_drift_, energy_rise_ = 0, time_of_rise_ = 0, way_ = 0;
+  double lost_ = 0, dissipated_ = 0;
   std::vector<std::array<double, 2>> energies_; // time and energy
 };
 

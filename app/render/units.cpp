@@ -35,6 +35,8 @@ const std::map<std::string_view, std::pair<const char*, const char*>> names{
     {"v", {"reduced volume", "*v*"}},
     {"Da", {"area difference", "Δ*a*"}},
     {"dA_rel", {"error of the area", ""}},
+    {"work", {"work of constraints in a step", ""}},
+    {"dissipated", {"energy dissipated in a step", ""}},
     {"energy_rise", {"rise of the energy in a step", ""}},
     {"dV_rel", {"error of the volume", ""}},
     {"max_speed", {"largest speed", ""}},
@@ -64,6 +66,7 @@ Notations all_notations() {
   Measures measures;
   measures.phases.emplace();
   measures.stretch.emplace();
+  measures.balance.emplace();
   measures.energy_rise = 0;
   for (const TermInfo& term : energy_term_table) {
     measures.terms[term.term] = 0;

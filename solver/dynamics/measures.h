@@ -25,6 +25,12 @@ struct StretchMeasures {
   double least = 1, greatest = 1; ///< of c
 };
 
+/// Where the energy went in a step: it changes by work - dissipated, but for the error of the step.
+struct EnergyBalance {
+  double work = 0;       ///< of the multipliers of what is held, where that changes
+  double dissipated = 0; ///< int u^2 dA / dt, u how far the step moved the membrane
+};
+
 /// What is known of a state; one row of history.csv.
 struct Measures {
   double time = 0;
@@ -46,6 +52,10 @@ struct Measures {
   EnergyTerms terms{};                      ///< what `energy` is the sum of
   std::optional<PhaseMeasures> phases{};    ///< where the scene has domains
   std::optional<StretchMeasures> stretch{}; ///< where the scene has a stretch modulus
+
+  /// Of the step that led here, where there is one phase without stretch: else what moves along the
+  /// membrane dissipates too. Nothing in what earlier versions stored.
+  std::optional<EnergyBalance> balance{};
 
   /// Of the step that led here, over Vesicle::energy_scale() before it; 0 where the energy fell or
   /// the step was driven. Nothing in what earlier versions stored.

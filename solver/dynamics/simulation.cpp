@@ -123,6 +123,10 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
   step_materials(dt);
   holdings_ = vesicle_.holdings();
   apply_constrained(then);
+  const Quantities had = quantities(vesicle_.integrals_of_each());
+  const Multipliers pulled = vesicle_.multipliers();
+  EnergyBalance balance;
+  if (measures_.balance) balance.dissipated = dissipated(dt);
   error_ = std::max(step_error(), boundary_error());
   last_dt_ = dt;
   broken_ = true;
@@ -140,6 +144,10 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
     throw RunError(message);
   }
   check(now);
+  if (measures_.balance) {
+    balance.work = vesicle_.work_since(had, pulled);
+    now.balance = balance;
+  }
   excess_ = excess_.cols() == excess.cols() ? Quantities(memory * excess_ + excess) : excess;
   steps_++;
   note(now);
@@ -366,6 +374,25 @@ double Simulation::last_move() const {
 }
 
 double Simulation::next_dt() const { return choose_dt(1e300); }
+
+/// int u^2 dA / dt of the last step, u its displacement.
+double Simulation::dissipated(double dt) const {
+  const SurfaceGeometry& surface = vesicle_.surface();
+  const ConstPoints p = surface.points();
+  SplineView field = vesicle_.phi().view();
+  field.coefficients = stepper_.increment().data();
+  constexpr std::size_t samples_per_task = 256;
+  return parallel_sum<double>(
+      surface.size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
+        double change[samples_per_task], sum = 0;
+        kernels().values(field, end - begin, {p.x + begin, p.y + begin, p.z + begin}, change);
+        for (std::size_t i = begin; i < end; i++) {
+          const double u = change[i - begin] / surface.grad()[i];
+          sum += surface.weight()[i] * u * u;
+        }
+        return sum / dt;
+      });
+}
 
 /// 2 rms |c_new - ratio c_old| / (|grad phi| h) over the nodes next to the membrane.
 double Simulation::step_error() const {

@@ -105,6 +105,7 @@ private:
   double choose_dt(double latest) const;
   double speed() const;
   double last_move() const;
+  double dissipated(double dt) const;
   double step_error() const;
   double boundary_error() const;
   void go_back();

@@ -317,7 +317,8 @@ bool Simulation::part_at(const Closing& place) {
   const double h = grid().spacing;
   last_dt_ = std::min(last_dt_, restart_step * h * h * h * h / vesicle_.stiffness_of_grid());
   parted.dt = measures_.dt;
-  parted.energy_rise = measures_.energy_rise; // of the step that led here
+  parted.balance = measures_.balance; // of the step that led here
+  parted.energy_rise = measures_.energy_rise;
   note(parted);
   event.components_after = measures_.components;
   event.genus_after = measures_.genus;

@@ -628,6 +628,18 @@ double Vesicle::energy_scale(const EnergyTerms& terms) const {
   return std::max(8 * std::numbers::pi * softest, sum);
 }
 
+double Vesicle::work_since(const Quantities& before, const Multipliers& pulled) const {
+  const Quantities now = quantities(of_each_);
+  if (now.cols() != before.cols()) return 0;  // vesicles met or parted
+  constexpr double of_unit[] = {1, -1, -0.5}; // P dV, -sigma dA, -q/2 d int K_M
+  double work = 0;
+  for (const int i : constraints_.held())
+    if (i < with_boundary)
+      work +=
+          0.5 * of_unit[i] * (multipliers_.row(i) + pulled.row(i)).dot(now.row(i) - before.row(i));
+  return work;
+}
+
 Measures Vesicle::measures(double time) const {
   Measures m;
   const double A = integrals_.area(), V = integrals_.volume, radius = sphere_radius(A),
@@ -664,6 +676,7 @@ Measures Vesicle::measures(double time) const {
     m.sigma = (p.sigma_Ld * p.area_Ld + p.sigma_Lo * p.area_Lo) / A;
   }
   if (stretch_) m.stretch = stretch_->measures(surface_);
+  if (!phases_ && !stretch_) m.balance.emplace();
   m.energy_rise = 0;
   const Topology topology = topology_of(grid(), phi_.nodal());
   m.components = topology.components;

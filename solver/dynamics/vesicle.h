@@ -83,6 +83,9 @@ public:
   Measures measures(double time) const;
   /// Of each vesicle.
   std::vector<ComponentMeasures> component_measures(double time) const;
+  /// What the multipliers of held quantities did since a time when these were the quantities and
+  /// the multipliers. (A change of pressure or tension counts with its mean.)
+  double work_since(const Quantities& before, const Multipliers& pulled) const;
   /// Largest relative deviation from the constraints.
   double drift(double time) const;
   /// Normal velocity at a sample (Eq. 80).

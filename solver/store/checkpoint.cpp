@@ -16,7 +16,7 @@
 namespace lamella {
 namespace {
 
-constexpr int format = 4;
+constexpr int format = 5;
 constexpr const char* group_name = "checkpoint"; // in "lamella", which every frame has
 constexpr const char *fields_group = "fields", *steppers_group = "field_steps";
 constexpr std::size_t most_responses = 2;

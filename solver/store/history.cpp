@@ -76,7 +76,8 @@ Measures measures_with(std::span<const std::string> columns) {
     if (column.starts_with(other_term))
       if (const std::string name = column.substr(other_term.size()); is_term_name(name))
         measures.terms.others()[name] = 0;
-  if (has("energy_rise")) measures.energy_rise.emplace(); // earlier versions wrote none
+  if (has("work")) measures.balance.emplace(); // earlier versions wrote neither of these
+  if (has("energy_rise")) measures.energy_rise.emplace();
   return measures;
 }
 
@@ -105,6 +106,10 @@ Row row_of(Measures& m) {
       row.push_back({term.column, &*value, "energy"});
   for (auto& [name, energy] : m.terms.others())
     row.push_back({std::string(other_term) + name, &energy, "energy"});
+  if (m.balance) {
+    row.push_back({"work", &m.balance->work, "energy"});
+    row.push_back({"dissipated", &m.balance->dissipated, "energy"});
+  }
   if (m.energy_rise) row.push_back({"energy_rise", &*m.energy_rise});
   return row;
 }

@@ -55,6 +55,22 @@ TEST(Summary, tells_of_both_phases_and_their_boundary) {
   EXPECT_THAT(text, Not(HasSubstr(" -7"))) << "the mean tension, which says nothing more";
 }
 
+TEST(Summary, compares_what_the_energy_lost_with_what_was_dissipated) {
+  Measures start, end;
+  start.energy = 60;
+  start.balance.emplace();
+  end.energy = 50;
+  end.balance = {.work = 2, .dissipated = 12.06};
+  EXPECT_THAT(summary_of(start, end),
+              HasSubstr("Energy law: 12 lost, 12.06 dissipated (+0.50 %)\n"));
+  end.genus = 1; // what a cut did to the energy is no step's
+  EXPECT_THAT(summary_of(start, end), Not(HasSubstr("Energy law")));
+  end.genus = 0;
+  end.energy = start.energy;
+  end.balance = {.work = 0, .dissipated = 1e-12};
+  EXPECT_THAT(summary_of(start, end), Not(HasSubstr("Energy law"))) << "nothing was lost";
+}
+
 TEST(Summary, keeps_its_columns_in_line) {
   Measures state = state_with_phases();
   state.stretch = {0.99, 1.01};

@@ -251,14 +251,14 @@ TEST_F(Checkpoints, AreRefusedWhenTheyAreSomethingElse) {
   write_h5(Place(file()), 100, [](hid_t) {});
   EXPECT_THAT(message_of([&] { read_checkpoint(file()); }), HasSubstr("no group lamella"));
   EXPECT_THAT(message_for([](hid_t group) { write_attribute(group, "format", std::array{1}); }),
-              HasSubstr("it is of format 1, this program reads 4"));
+              HasSubstr("it is of format 1, this program reads 5"));
   EXPECT_THAT(message_for([](hid_t) {}), HasSubstr("attribute format is missing"));
 }
 
 TEST_F(Checkpoints, AreRefusedBeforeAnythingIsAllocatedForHostileSizes) {
   const auto with_scene = [&](hid_t type, std::vector<hsize_t> size, bool compressed) {
     return message_for([&](hid_t group) {
-      write_attribute(group, "format", std::array{4});
+      write_attribute(group, "format", std::array{5});
       owned(H5Gcreate2(group, "phi_steps", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
       const H5Handle space = owned(H5Screate_simple(int(size.size()), size.data(), nullptr));
       const H5Handle properties = creation(H5P_DATASET_CREATE);

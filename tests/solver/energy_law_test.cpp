@@ -60,6 +60,7 @@ Power power_at(const Scene& scene, const Simulation& simulation) {
 /// What the energy lost, and what friction took less what ramps gave, between two steps.
 struct Balance {
   double lost = 0, taken = 0;
+  double told = 0; ///< by the measures of the steps; 0 where they tell nothing
   double error() const { return taken / lost - 1; }
 };
 
@@ -78,6 +79,8 @@ Balance balance(const Scene& scene) {
     const double dt = sim.measures().dt;
     sum.taken += 0.5 * dt * (before.friction + now.friction - before.ramps - now.ramps);
     before = now;
+    if (const auto& of_step = sim.measures().balance)
+      sum.told += of_step->dissipated - of_step->work;
   }
   sum.lost -= sim.measures().energy;
   return sum;
@@ -190,6 +193,11 @@ TEST(EnergyLaw, EnergyFallsByWhatFrictionTakes) {
   for (const Kind& kind : kinds()) {
     const Balance b = balance(kind.scene);
     EXPECT_NEAR(b.error(), 0, kind.allowed) << kind.name << ": " << b.lost << ", " << b.taken;
+    EXPECT_EQ(b.told != 0, !kind.scene.has_phases() && kind.scene.stretch.modulus == 0)
+        << kind.name;
+    if (b.told != 0) {
+      EXPECT_NEAR(b.told / b.lost, 1, kind.allowed) << kind.name;
+    }
   }
 }
 
