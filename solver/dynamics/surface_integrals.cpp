@@ -12,8 +12,10 @@ SurfaceIntegrals& SurfaceIntegrals::operator+=(const SurfaceIntegrals& other) {
   return *this;
 }
 
-SurfaceIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation,
+SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Variation& variation,
                            const Samples& samples) {
+  const bool with_variation = !variation.values.empty();
+  const double stiffness = variation.stiffness;
   return parallel_sum<SurfaceIntegrals>(
       samples.count(surface), 2048, [&](std::size_t begin, std::size_t end) {
         SurfaceIntegrals sum;
@@ -25,8 +27,14 @@ SurfaceIntegrals integrate(const SurfaceGeometry& surface, std::span<const doubl
           const Vec3 p = surface.point(i), n = surface.normal(i);
           const double products[6] = {1, KM, K, KM * KM, KM * K, K * K};
           for (int m = 0; m < 6; m++) s[m] += w * products[m];
-          if (!variation.empty())
-            for (int m = 0; m < 3; m++) f[m] += w * products[m] * variation[i];
+          if (with_variation) {
+            for (int m = 0; m < 3; m++) f[m] += w * products[m] * variation.values[i];
+            if (stiffness != 0) {
+              const double lap = surface.lap_KM()[i];
+              f[0] -= w * stiffness * lap;
+              f[1] -= w * stiffness * (KM * lap + surface.slope2()[i]);
+            }
+          }
           sum.volume += w * (p[0] * n[0] + p[1] * n[1] + p[2] * n[2]) / 3;
         }
         sum.gram.topLeftCorner<3, 3>() << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];

@@ -39,8 +39,15 @@ private:
   bool all_ = true;
 };
 
-/// `variation`: F at the samples; empty leaves those integrals 0.
-SurfaceIntegrals integrate(const SurfaceGeometry& surface, std::span<const double> variation,
+/// F at the samples, and how much of it is stiffness Lap_s K_M. Of that part the integrals with 1
+/// and K_M are those of first derivatives of K_M, 0 and -stiffness int |grad_s K_M|^2 dA: as sums
+/// of second ones they scatter, and tensions with them by 1e-3.
+struct Variation {
+  std::span<const double> values; ///< empty leaves those integrals 0
+  double stiffness = 0;
+};
+
+SurfaceIntegrals integrate(const SurfaceGeometry& surface, const Variation& variation,
                            const Samples& samples = {});
 
 } // namespace lamella

@@ -432,8 +432,10 @@ void Vesicle::move_boundaries(const Eigen::VectorXd& along) {
 
 /// `with_forces`: the variation is known.
 void Vesicle::integrate_all(bool with_forces) {
-  const std::span<const double> variation =
-      with_forces ? std::span<const double>(variation_) : std::span<const double>();
+  // The strips along phase boundaries are not the closed surfaces of one stiffness that the
+  // integrals by parts are of.
+  const Variation variation =
+      with_forces ? Variation{variation_, phases_ ? 0 : stiffness()} : Variation{};
   components_.find_samples(surface_);
   if (phases_ && !with_forces) phases_->sample(band_, surface_, components_);
   of_each_.clear();

@@ -14,6 +14,11 @@ constexpr double least_reach = 1.8; // spacings; linear interpolation needs no m
 constexpr double first_probe = 3, near_opposite = 1.5, longest_stride = 4, thickest = 24;
 constexpr std::size_t samples_per_task = 256;
 
+struct Greatest {
+  double value = 0;
+  void operator+=(const Greatest& other) { value = std::max(value, other.value); }
+};
+
 auto jets_kernel(Derivatives wanted) {
   return wanted >= Derivatives::all ? kernels().full_jets : kernels().jets;
 }
@@ -44,8 +49,8 @@ void SurfaceGeometry::sample(const LevelSet& phi, const NarrowBand& band) {
 }
 
 void SurfaceGeometry::resize(std::size_t samples) {
-  for (auto* a :
-       {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &sharpest_, &weight_})
+  for (auto* a : {&x_, &y_, &z_, &phi_, &nx_, &ny_, &nz_, &grad_, &KM_, &K_, &lap_KM_, &slope2_,
+                  &sharpest_, &weight_})
     a->resize(samples);
 }
 
@@ -102,7 +107,8 @@ SurfaceArrays SurfaceGeometry::arrays_from(std::size_t i, Derivatives wanted) {
                     .grad = &grad_[i],
                     .KM = &KM_[i],
                     .K = &K_[i],
-                    .lap_KM = &lap_KM_[i]};
+                    .lap_KM = &lap_KM_[i],
+                    .slope2 = &slope2_[i]};
   if (wanted >= Derivatives::gradient) {
     for (int d = 0; d < 3; d++) out.grad_KM[d] = &grad_KM_[d][i];
     for (int c = 0; c < 6; c++) out.B[c] = &B_[c][i];
@@ -126,10 +132,11 @@ void SurfaceGeometry::evaluate(const LevelSet& phi, NarrowBand& band, Kernel ker
     kernel(spline, end - begin, {&x_[begin], &y_[begin], &z_[begin]}, arrays_from(begin, wanted));
     finish(band, begin, end);
   });
+  weigh();
 }
 
-/// Limits curvatures to what the grid can carry, takes the last bit of the way onto {phi = 0}, and
-/// weighs.
+/// Limits curvatures to what the grid can carry, and takes the last bit of the way onto {phi = 0}.
+/// Leaves the node's distance in place of a weight.
 void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t end) {
   const double h = grid_.spacing, longest = 0.5 * h, KM_limit = 2 / h, K_limit = 1 / (h * h);
   const ConstPoints first = band.positions(), second = second_.positions();
@@ -142,10 +149,25 @@ void SurfaceGeometry::finish(NarrowBand& band, std::size_t begin, std::size_t en
     const bool own = i < entry_.size();
     const ConstPoints& node = own ? first : second;
     const std::size_t s = own ? entry_[i] : i - entry_.size();
-    const double d =
+    weight_[i] =
         (node.x[s] - x_[i]) * nx_[i] + (node.y[s] - y_[i]) * ny_[i] + (node.z[s] - z_[i]) * nz_[i];
-    weight_[i] = kernel_.weight(d, KM_[i], K_[i], h);
   }
+}
+
+void SurfaceGeometry::weigh() {
+  const double h = grid_.spacing;
+  const Greatest bend =
+      parallel_sum<Greatest>(size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
+        Greatest of;
+        for (std::size_t i = begin; i < end; i++)
+          of += {std::sqrt(std::max(0.0, 0.25 * KM_[i] * KM_[i] - K_[i])) - 0.5 * KM_[i]};
+        return of;
+      });
+  const QuadratureKernel kernel = kernel_.reaching(bend.value * h);
+  parallel_for(size(), samples_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i++)
+      weight_[i] = kernel.weight(weight_[i], KM_[i], K_[i], h);
+  });
 }
 
 void SurfaceGeometry::differentiate(const LevelSet& lap_KM) {
@@ -194,11 +216,8 @@ double SurfaceGeometry::thickness(std::size_t i, const NarrowBand& band) const {
 
 std::vector<double> squared_gradient_of_KM(const LevelSet& phi, std::span<const Vec3> points) {
   SurfaceGeometry surface;
-  surface.jets_at(phi, points, Derivatives::gradient);
-  std::vector<double> square(points.size(), 0);
-  for (std::size_t i = 0; i < square.size(); i++)
-    for (int d = 0; d < 3; d++) square[i] += surface.grad_KM(d)[i] * surface.grad_KM(d)[i];
-  return square;
+  surface.jets_at(phi, points, Derivatives::laplacian);
+  return {surface.slope2().begin(), surface.slope2().end()};
 }
 
 } // namespace lamella

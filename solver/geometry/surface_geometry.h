@@ -13,7 +13,7 @@ namespace lamella {
 /// How much is known of the curvatures along the membrane.
 enum class Derivatives {
   none,      ///< K_M and K alone
-  laplacian, ///< Lap_s K_M
+  laplacian, ///< Lap_s K_M, |grad_s K_M|^2
   gradient,  ///< also grad_s K_M and the curvature tensor B
   all,       ///< also B : grad_s grad_s K_M, and the same of K
   sixth      ///< also grad_s grad_s K_M and, by differentiate(), the same of Lap_s K_M as of K_M
@@ -62,6 +62,8 @@ public:
   std::span<const double> KM() const { return KM_; }
   std::span<const double> K() const { return K_; }
   std::span<const double> lap_KM() const { return lap_KM_; }
+  /// |grad_s K_M|^2.
+  std::span<const double> slope2() const { return slope2_; }
   std::span<const double> grad_KM(int axis) const { return grad_KM_[axis]; }
   std::span<const double> grad_K(int axis) const { return grad_K_[axis]; }
   /// Curvature tensor, trace K_M: xx, yy, zz, xy, xz, yz.
@@ -89,13 +91,15 @@ private:
   template <class Kernel>
   void evaluate(const LevelSet& phi, NarrowBand& band, Kernel kernel, Derivatives wanted);
   void finish(NarrowBand& band, std::size_t begin, std::size_t end);
+  void weigh();
 
   QuadratureKernel kernel_;
   Grid grid_;
   std::vector<int> entry_;
   std::vector<char> sampled_;
   SecondSheets second_;
-  Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, sharpest_, weight_;
+  Array<double> x_, y_, z_, phi_, nx_, ny_, nz_, grad_, KM_, K_, lap_KM_, slope2_, sharpest_,
+      weight_;
   Derivatives derivatives_ = Derivatives::none;
   std::array<Array<double>, 3> grad_KM_, grad_K_, grad_lap_KM_;
   std::array<Array<double>, 6> B_, hess_KM_;

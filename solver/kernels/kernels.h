@@ -30,6 +30,7 @@ struct SurfaceArrays {
   double *nx, *ny, *nz, *grad; ///< unit normal and |grad phi|
   double *KM, *K;              ///< sum and product of the principal curvatures of the level surface
   double* lap_KM;              ///< surface Laplacian of KM
+  double* slope2;              ///< |grad_s KM|^2
   double* grad_KM[3] = {};     ///< surface gradient of KM, x, y, z
   double* B[6] = {};           ///< curvature tensor (trace KM), xx, yy, zz, xy, xz, yz
   double* B_hess_KM = nullptr; ///< B : grad_s grad_s KM
@@ -48,9 +49,9 @@ struct SpectralRow {
   double dt, ratio;         ///< step, step / previous step (0: no history, Euler)
   /// Implicit symbol: dt [gradient k^6 / (1 + levelling k^4) + stiffness k^4 + tension k^2].
   double gradient, levelling, stiffness, tension;
-  double blend;         ///< z0: modes with implicit symbol far above it take Euler
-  double least_history; ///< share of SBDF2 that stiff modes keep
-  double fade;          ///< z1: beyond it modes lose that too
+  double blend; ///< z0: modes with implicit symbol far above it take Euler
+  double share; ///< of SBDF2, that stiff modes keep
+  double fade;  ///< z1: beyond it modes lose that too
 };
 
 struct Kernels {
@@ -70,7 +71,7 @@ struct Kernels {
   void (*curvatures)(const SplineView& spline, std::size_t n, ConstPoints p,
                      const SurfaceArrays& out);
 
-  /// SurfaceArrays down to lap_KM, grad_KM and B where they are wanted.
+  /// SurfaceArrays down to slope2, grad_KM and B where they are wanted.
   void (*jets)(const SplineView& spline, std::size_t n, ConstPoints p, const SurfaceArrays& out);
   /// All of SurfaceArrays; hess_KM where it is wanted.
   void (*full_jets)(const SplineView& spline, std::size_t n, ConstPoints p,

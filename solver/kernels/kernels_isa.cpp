@@ -344,6 +344,7 @@ void jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceArrays
     const Taylor2 KM = KM_around(gradient_and_hessian(d), c);
     const V8 along = along_normal(KM, c);
     put(out.lap_KM, first, n, surface_laplacian(KM, c, along));
+    put(out.slope2, first, n, KM.x * KM.x + KM.y * KM.y + KM.z * KM.z - along * along);
     if (!out.grad_KM[0]) continue;
     put_surface_gradient(KM, c, along, first, n, out.grad_KM);
     put_tensor(curvature_tensor(d, c), first, n, out.B);
@@ -364,6 +365,7 @@ void full_jets(const SplineView& s, std::size_t n, ConstPoints p, const SurfaceA
     const Taylor2 KM = KM_around(g, c);
     V8 along = along_normal(KM, c);
     put(out.lap_KM, first, n, surface_laplacian(KM, c, along));
+    put(out.slope2, first, n, KM.x * KM.x + KM.y * KM.y + KM.z * KM.z - along * along);
     put(out.B_hess_KM, first, n, times_hessian(B, KM, c, along));
     put_surface_gradient(KM, c, along, first, n, out.grad_KM);
     if (out.hess_KM[0]) put_tensor(surface_hessian(B, KM, c, along), first, n, out.hess_KM);
@@ -468,8 +470,7 @@ LAMELLA_INLINE void advance_row(const SpectralRow& row, double* __restrict rate,
                inv_z0 = 1 / row.blend, inv_z1 = 1 / row.fade;
   for (int e = 0; e < 2 * row.modes; e++) {
     const double k2 = row.kx2[e] + row.k2, z = implicit_symbol<sixth>(row, k2);
-    const double theta =
-        row.least_history / (1 + z * inv_z1) + (1 - row.least_history) / (1 + z * inv_z0);
+    const double theta = row.share / (1 + z * inv_z1) + (1 - row.share) / (1 + z * inv_z0);
     const double r = rate[e] * row.scale * row.inv_symbol[e];
     const double last = increment_old[e] + correction_factor * correction[e];
     const double d =

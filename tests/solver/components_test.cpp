@@ -228,7 +228,7 @@ TEST(HeldQuantities, HaveMultipliersOfTheirOwnOrInCommon) {
   std::vector<double> F(s.geometry.size());
   SurfaceEnergy(SurfaceModuli{1, -3}).find_forces(s.geometry, {}, {}, F);
   std::vector<SurfaceIntegrals> each;
-  for (int k = 0; k < 2; k++) each.push_back(integrate(s.geometry, F, s.components.samples(k)));
+  for (int k = 0; k < 2; k++) each.push_back(integrate(s.geometry, {F}, s.components.samples(k)));
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(6, 6);
   Eigen::VectorXd variation(6);
   for (int k = 0; k < 2; k++) {

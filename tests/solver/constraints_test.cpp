@@ -27,7 +27,7 @@ TEST(Multipliers, GiveTheRatesAskedFor) {
   const SurfaceGeometry& g = s.geometry;
   std::vector<double> F(g.size());
   SurfaceEnergy(SurfaceModuli{1.3, -2}).find_forces(g, {}, {}, F);
-  const SurfaceIntegrals integrals = integrate(g, F);
+  const SurfaceIntegrals integrals = integrate(g, {F});
   const Eigen::Vector4d asked{0.7, -1.9, 2.3, 0};
   for (const Constraint volume : {Constraint::fixed, Constraint::ramped, Constraint::free})
     for (const Constraint difference : {Constraint::fixed, Constraint::ramped, Constraint::free})

@@ -56,11 +56,11 @@ TEST_P(EachKernels, FindCurvaturesOfAnEllipsoid) {
   const Quadric q;
   const Cloud p = on_quadric(1);
   const std::size_t n = p.x.size();
-  std::vector<double> out[8];
+  std::vector<double> out[9];
   for (auto& o : out) o.resize(n);
   GetParam()->jets(q.phi.view(), n, p.points(),
                    {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(),
-                    out[5].data(), out[6].data(), out[7].data()});
+                    out[5].data(), out[6].data(), out[7].data(), out[8].data()});
   for (std::size_t i = 0; i < n; i++) {
     const double a2 = q.a * q.a, b2 = q.b * q.b, c2 = q.c * q.c;
     const double s =
@@ -81,11 +81,11 @@ TEST_P(EachKernels, AgreeWithEachOther) {
   const Cloud p = on_quadric(1);
   const std::size_t n = p.x.size();
   auto lap_KM = [&](const Kernels& k) {
-    std::vector<double> out[8];
+    std::vector<double> out[9];
     for (auto& o : out) o.resize(n);
     k.jets(q.phi.view(), n, p.points(),
            {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(),
-            out[5].data(), out[6].data(), out[7].data()});
+            out[5].data(), out[6].data(), out[7].data(), out[8].data()});
     return out[7];
   };
   const std::vector<double> mine = lap_KM(*GetParam()),
@@ -100,7 +100,7 @@ TEST_P(EachKernels, FindWholeJets) {
   const Quadric q;
   const Cloud p = on_quadric(1);
   const std::size_t n = p.x.size();
-  std::vector<std::vector<double>> out(30, std::vector<double>(n));
+  std::vector<std::vector<double>> out(31, std::vector<double>(n));
   const auto arrays = [&](std::size_t i) {
     SurfaceArrays a{.phi = out[i].data(),
                     .nx = out[i + 1].data(),
@@ -109,7 +109,8 @@ TEST_P(EachKernels, FindWholeJets) {
                     .grad = out[i + 4].data(),
                     .KM = out[i + 5].data(),
                     .K = out[i + 6].data(),
-                    .lap_KM = out[i + 7].data()};
+                    .lap_KM = out[i + 7].data(),
+                    .slope2 = out.back().data()};
     return a;
   };
   SurfaceArrays full = arrays(0);

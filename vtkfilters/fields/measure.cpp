@@ -130,7 +130,8 @@ ShapeMeasures measure(const Frame& frame, const Scene& forces) {
   Fourier fourier(frame.grid);
   const std::vector<CarriedField> fields = material_fields(forces, frame, surface, fourier);
   energy.find_forces(surface, {}, {}, variation, jets_of(fields));
-  const SurfaceIntegrals integrals = integrate(surface, variation);
+  const double stiffness = energy.stiffness(surface, {}, jets_of(fields)).most;
+  const SurfaceIntegrals integrals = integrate(surface, {variation, stiffness});
   if (!(integrals.area() > 0))
     throw InputError("the membrane is too small for the grid to be measured");
   const double pi = std::numbers::pi, radius = std::sqrt(integrals.area() / (4 * pi));
