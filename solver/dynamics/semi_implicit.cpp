@@ -55,14 +55,16 @@ SpectralRow SemiImplicit::row(int ky, int kz) const {
           implicit_.stiffness,
           implicit_.tension,
           blend,
-          least_history,
+          share_,
           fade};
 }
 
-void SemiImplicit::predict(const Extension& rates, double dt, const ImplicitSymbol& symbol) {
+void SemiImplicit::predict(const Extension& rates, double dt, const ImplicitSymbol& symbol,
+                           double share) {
   ratio_ = memory_.dt > 0 ? dt / memory_.dt : 0;
   memory_.dt = dt;
   implicit_ = symbol;
+  share_ = share;
   memory_.nodal_increment.swap(previous_);
   const std::size_t plane = std::size_t(grid_.nx()) * grid_.ny();
   auto step = [&](int ky, int kz, std::complex<double>* modes) {

@@ -18,16 +18,16 @@ struct ImplicitSymbol {
 
 /// Advances phi by d phi / dt = rate with the stiff part implicit: a blend, mode by mode, of SBDF2
 /// (where z, dt times the implicit symbol, is small) and semi-implicit Euler (where it is
-/// large), with variable steps. Stiff modes keep 0.3 of SBDF2's history, which cuts their lag by a
-/// third; that is stable while the true symbol is below 1.6 times the implicit one (Euler alone: 2,
-/// SBDF2 alone: 4/3).
+/// large), with variable steps. Stiff modes keep a share of SBDF2's history, which cuts their lag:
+/// with 0.3 by a third, and stable while the true symbol is below 1.6 times the implicit one (Euler
+/// alone: 2, SBDF2 alone: 4/3).
 ///
 /// A step is made of predict(), respond() and apply(), in this order.
 class SemiImplicit {
 public:
   static constexpr double blend = 1; ///< modes with z above it are mostly Euler
-  /// Of SBDF2, for stiff modes too: cuts their lag.
-  static constexpr double least_history = 0.3;
+  /// Of SBDF2, for stiff modes too, where nothing tells better.
+  static constexpr double share_of_history = 0.3;
   /// The stiffest modes, z above it, where stability is marginal, lose that too.
   static constexpr double fade = 30;
 
@@ -47,8 +47,10 @@ public:
   /// `responses`: to how many constraint forces.
   SemiImplicit(const Grid& grid, Fourier& fourier, int responses);
 
-  /// Coefficient increment of a step of length dt at the given nodal rates.
-  void predict(const Extension& rates, double dt, const ImplicitSymbol& symbol);
+  /// Coefficient increment of a step of length dt at the given nodal rates; stiff modes keep
+  /// `share` of the history.
+  void predict(const Extension& rates, double dt, const ImplicitSymbol& symbol,
+               double share = share_of_history);
 
   /// What constraint force `which` does in the same step: its nodal rates, smoothed as the step
   /// smooths. Constraints that are kept along this response, and not along the force itself, do not
@@ -98,7 +100,7 @@ private:
   Memory memory_;
   Array<double> previous_, before_;
   ImplicitSymbol implicit_;
-  double ratio_ = 0;
+  double ratio_ = 0, share_ = share_of_history;
 };
 
 } // namespace lamella

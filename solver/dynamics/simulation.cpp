@@ -25,6 +25,11 @@ constexpr double memory = 0.9;
 // Spacings in a step. Noise of the gauge comes as the membrane moves: after a shorter move less of
 // it is filtered, so that a membrane at rest stays where it is.
 constexpr double noisy_move = 0.01;
+// Stiff modes that lag move less than the energy falls by. How much the share of history that they
+// keep grows by for that, at most, and falls by where they overshoot; what of the energy is too
+// little to tell by.
+constexpr double share_gain = 5, most_gained = 0.15, most_given_up = 0.5, least_share = 0.1,
+                 least_lost = 1e-5;
 // |grad phi| over its mean; where it varies more the step loses stability.
 constexpr double gauge_limit = 1.2;
 constexpr int steps_between_renormalisations = 5;
@@ -108,7 +113,9 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
   gauge_.filter(vesicle_.phi(), vesicle_.band(),
                 has_history ? std::min(1.0, last_move() / (noisy_move * grid().spacing)) : 1);
   extend_rates([&](std::size_t i) { return vesicle_.velocity(i); });
-  stepper_.predict(vesicle_.extension(), dt, implicit_symbol());
+  const bool is_balanced = measures_.balance.has_value();
+  stepper_.predict(vesicle_.extension(), dt, implicit_symbol(),
+                   is_balanced ? history_share_ : SemiImplicit::share_of_history);
   if (steps_ % steps_between_responses == 0 || dt > 1.5 * response_dt_ || 1.5 * dt < response_dt_) {
     extend_rates([&](std::size_t i) { return surface.KM()[i]; });
     stepper_.respond(0, vesicle_.extension());
@@ -126,7 +133,7 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
   const Quantities had = quantities(vesicle_.integrals_of_each());
   const Multipliers pulled = vesicle_.multipliers();
   EnergyBalance balance;
-  if (measures_.balance) balance.dissipated = dissipated(dt);
+  if (is_balanced) balance.dissipated = dissipated(dt);
   error_ = std::max(step_error(), boundary_error());
   last_dt_ = dt;
   broken_ = true;
@@ -144,9 +151,10 @@ std::optional<Simulation::Failure> Simulation::try_step(double then) {
     throw RunError(message);
   }
   check(now);
-  if (measures_.balance) {
+  if (is_balanced) {
     balance.work = vesicle_.work_since(had, pulled);
     now.balance = balance;
+    correct_lag(balance, measures_.energy - now.energy, scale);
   }
   excess_ = excess_.cols() == excess.cols() ? Quantities(memory * excess_ + excess) : excess;
   steps_++;
@@ -392,6 +400,16 @@ double Simulation::dissipated(double dt) const {
         }
         return sum / dt;
       });
+}
+
+/// Lets stiff modes keep more of their history where a step dissipated less than the energy lost,
+/// and less where it dissipated more.
+void Simulation::correct_lag(const EnergyBalance& balance, double lost, double scale) {
+  const double all = lost + balance.work,
+               excess = (balance.dissipated - all) / std::max(all, least_lost * scale);
+  history_share_ =
+      std::clamp(history_share_ - std::clamp(share_gain * excess, -most_gained, most_given_up),
+                 least_share, 1.0);
 }
 
 /// 2 rms |c_new - ratio c_old| / (|grad phi| h) over the nodes next to the membrane.

@@ -23,7 +23,7 @@ struct SimulationState {
   SemiImplicit::Memory stepper;
   std::map<std::string, SemiImplicit::Memory> field_steppers; ///< of those that have one
   Array<double> excess; ///< of each vesicle, four numbers each
-  double error = 0, last_dt = 0, response_dt = 0;
+  double error = 0, last_dt = 0, response_dt = 0, history_share = 0;
   long steps = 0, renormalised = 0, next_parting = 0, next_search = 0, failures = 0;
   double failed_before = 0;
   long driven = 0; ///< 1: the energy may rise in the next step, as the scene is another one now
@@ -106,6 +106,7 @@ private:
   double speed() const;
   double last_move() const;
   double dissipated(double dt) const;
+  void correct_lag(const EnergyBalance& balance, double lost, double scale);
   double step_error() const;
   double boundary_error() const;
   void go_back();
@@ -151,7 +152,8 @@ private:
   Vesicle::Holdings holdings_;                 // before the last step
   double error_ = 0;                           // of the last step
   double last_dt_ = 0;                         // 0: none yet
-  double response_dt_ = 0;                     // the step that the responses were found for
+  double history_share_ = SemiImplicit::share_of_history; // that stiff modes of phi keep
+  double response_dt_ = 0; // the step that the responses were found for
   long steps_ = 0, renormalised_ = 0, next_parting_ = 0, next_search_ = 0;
   long failures_ = 0; // of steps from before failed_before_
   double failed_before_ = 0;

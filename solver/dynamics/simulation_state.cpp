@@ -90,10 +90,11 @@ Simulation::Simulation(const Scene& scene, const SimulationState& s, const Surfa
       gauge_(scene.grid()), stepper_(scene.grid(), fourier_, responses_of(scene)),
       inside_(s.inside), outside_(s.outside), why_not_on_(s.why_not_on),
       excess_(Eigen::Map<const Quantities>(s.excess.data(), 4, Eigen::Index(s.excess.size() / 4))),
-      error_(s.error), last_dt_(s.last_dt), response_dt_(s.response_dt), steps_(s.steps),
-      renormalised_(s.renormalised), next_parting_(s.next_parting), next_search_(s.next_search),
-      failures_(s.failures), failed_before_(s.failed_before), driven_(s.driven), cells_(s.cells),
-      topology_(s.topology), domains_(s.domains), measures_(s.measures), events_(s.events) {
+      error_(s.error), last_dt_(s.last_dt), response_dt_(s.response_dt),
+      history_share_(s.history_share), steps_(s.steps), renormalised_(s.renormalised),
+      next_parting_(s.next_parting), next_search_(s.next_search), failures_(s.failures),
+      failed_before_(s.failed_before), driven_(s.driven), cells_(s.cells), topology_(s.topology),
+      domains_(s.domains), measures_(s.measures), events_(s.events) {
   const auto name = [](const auto& term) { return term.first; };
   if (!std::ranges::equal(vesicle_.energies().others(), measures_.terms.others(), {}, name, name))
     refuse("the terms of the energy that are not built in");
@@ -113,6 +114,7 @@ SimulationState Simulation::state() const {
                     .error = error_,
                     .last_dt = last_dt_,
                     .response_dt = response_dt_,
+                    .history_share = history_share_,
                     .steps = steps_,
                     .renormalised = renormalised_,
                     .next_parting = next_parting_,

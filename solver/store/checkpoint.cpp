@@ -201,6 +201,7 @@ Items items_of(Checkpoint& c, Tables& tables) {
               {"steps/error", number(s.error)},
               {"steps/last_dt", number(s.last_dt)},
               {"steps/response_dt", number(s.response_dt)},
+              {"steps/history_share", number(s.history_share)},
               {"steps/made", number(s.steps)},
               {"steps/renormalised", number(s.renormalised)},
               {"steps/next_parting", number(s.next_parting)},
