@@ -11,10 +11,10 @@ namespace {
 // A little under pi times the width of the kernel, where its transform's first side lobe begins.
 constexpr double beta_of(double width) { return 2.95 * width; }
 
-/// What scales exp(beta (sqrt(1 - u^2) - 1)) on u in [-1, 1] to int = 1 over d/h, for widths of 2 to
-/// 4.8 spacings: linear between 1024 intervals, to 1e-6. Continuous in the width, which curvatures
-/// decide: with the nearest of 90 widths the area jumped by 1e-4 where necks part, and corrections
-/// that should have led to the constraints went to and fro.
+/// What scales exp(beta (sqrt(1 - u^2) - 1)) on u in [-1, 1] to int = 1 over d/h, for widths of 2
+/// to 4.8 spacings: linear between 1024 intervals, to 1e-6. Continuous in the width, which
+/// curvatures decide: with the nearest of 90 widths the area jumped by 1e-4 where necks part, and
+/// corrections that should have led to the constraints went to and fro.
 class Scales {
 public:
   Scales() {
@@ -37,8 +37,10 @@ private:
     double sum = 0;
     for (int i = 0; i <= parts; i++) {
       const double c = std::cos(i * dt);
-      sum += (i == 0 || i == parts ? 1 : i % 2 == 0 ? 2 : 4) * c *
-             std::exp(beta_of(width) * (c - 1));
+      sum += (i == 0 || i == parts ? 1
+              : i % 2 == 0         ? 2
+                                   : 4) *
+             c * std::exp(beta_of(width) * (c - 1));
     }
     return 3 / (dt * sum * width);
   }

@@ -16,8 +16,8 @@ struct QuadratureKernel {
   double least;      ///< spacings inside that it reaches however sharply the membrane is bent
 
   /// Mostly outside: the inside of a thin rim is the first place where nearest points cease to be
-  /// unique. (From -1 on, energies at rest scattered by 1e-5 with the grid, as the area does that is
-  /// held.)
+  /// unique. (From -1 on, energies at rest scattered by 1e-5 with the grid, as the area does that
+  /// is held.)
   static constexpr QuadratureKernel outside() { return {-1.8, 3, 1}; }
   /// For membranes with a phase boundary. In the groove along it the normals meet outside, at 4
   /// spacings in a bulged cap at 64^3, and what changes quickly across the boundary is squeezed
