@@ -70,7 +70,7 @@ TEST(Densities, AreReadWithTheirParameters) {
   EXPECT_EQ(densities[0].key, "membrane.density");
   EXPECT_DOUBLE_EQ(value(densities[0], {-2, 1}), 0.008 + 3 * 0.25);
 
-  std::vector<std::string_view> keys;
+  std::vector<std::string> keys;
   for (const SceneFormula& density : densities_of(scene_of(two_phases)))
     keys.push_back(density.key);
   EXPECT_THAT(keys, ElementsAre("ld.density", "lo.density", "line.density"));
