@@ -125,7 +125,7 @@ HeldAreas::integrate(const SurfaceGeometry& surface, std::span<const double> sha
   const Eigen::Index n = Eigen::Index(size());
   auto none = [n, &vesicles] {
     return Integrals{MatrixXd::Zero(n, 3 * vesicles.count()), MatrixXd::Zero(n, n),
-                     MatrixXd::Zero(n, n), VectorXd::Zero(n), VectorXd::Zero(n)};
+                     VectorXd::Zero(n), VectorXd::Zero(n), MatrixXd::Zero(n, n)};
   };
   Integrals sum =
       parallel_sum<Integrals>(surface.size(), 8192, [&](std::size_t begin, std::size_t end) {
@@ -151,7 +151,6 @@ HeldAreas::integrate(const SurfaceGeometry& surface, std::span<const double> sha
         return some;
       });
   if (sum.area.size() == 0) sum = none();
-  sum.line_gram.setZero(n, n);
   for (std::size_t j = 0; j < of_point_.size(); j++) {
     const auto [ld, lo] = of_point_[j];
     const double w = boundary.points()[j].weight;

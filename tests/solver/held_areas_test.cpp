@@ -78,6 +78,7 @@ TEST(HeldAreas, AreThoseOfAllDomainsButTheRestWhereItDoesNot) {
   const std::vector<double> F(s.geometry.size(), 1);
   const HeldAreas::Integrals sum = s.find(held, F);
   ASSERT_EQ(held.size(), 2u);
+  EXPECT_EQ(sum.variation.size(), 2);
   const auto [ring, cap] = ring_and_cap(sum);
   const double of_ring = ring_area * (std::cos(north) - std::cos(south)),
                of_cap = cap_area * (1 - std::cos(north));
