@@ -163,7 +163,7 @@ void TriangleTree::divide(int number) {
   std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                    [&](int one, int other) { return place(one) < place(other); });
   nodes_[number].first = int(nodes_.size());
-  for (const auto [from, to] : {std::pair{begin, middle}, {middle, end}})
+  for (const auto& [from, to] : {std::pair{begin, middle}, {middle, end}})
     nodes_.push_back({box_around(std::span(order_).subspan(from, to - from)), {}, from, to});
 }
 
